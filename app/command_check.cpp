@@ -317,11 +317,11 @@ void print_output(CaseSpec const& spec) {
 
 struct CheckArguments {
   CaseOptions from;
-  int ranks = 0;  ///< 0: not asked for
+  int ranks = 0;  ///< 0: not requested
   bool json = false;
 };
 
-/// Packings are cut short: what a look tells hardly depends on where each particle is.
+/// Packings are shortened: the results hardly depend on the exact position of each particle.
 CasePlan plan(CaseOptions const& options) {
   constexpr double most_packing = 15;  // s
   SetUpWatch watch("reading the case and making its particles", {.most_packing = most_packing});

@@ -140,7 +140,7 @@ StudySpec study_of(ConvergeArguments const& options) {
   study.case_file = case_file(options.from.file);
   study.jobs = options.jobs;
   study.threads = share_of_cores(study.jobs);
-  std::string const& given = options.from.threads;  // the reader of the case says if it is no number
+  std::string const& given = options.from.threads;  // the case reader reports an invalid number
   std::from_chars(given.data(), given.data() + given.size(), study.threads);
   study.settings = options.from.overrides();
   if (given.empty()) study.settings.push_back("run.threads=" + std::to_string(study.threads));

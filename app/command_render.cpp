@@ -97,8 +97,7 @@ void check_fields(RenderArguments const& options) {
         "choose one");
 }
 
-/// The first folder is the one that is drawn.
-/// "--view iso DIR": a named view takes one word, and what stands behind it is a folder.
+/// Draws the first folder. "--view iso DIR": a named view takes one word, and the word after it is a folder.
 void give_folder_back(RenderArguments& options) {
   bool const named = !options.view.empty() && named_view(options.view[0], Up::y);
   if (!named || options.view.size() < 2) return;

@@ -92,7 +92,7 @@ class ProgressLine {
   std::size_t shown_ = 0, number_ = 0;
 };
 
-/// Particle steps of a run, from the waves at rest; what a step costs is left to the clock.
+/// Particle steps of a run, from the initial wave speeds; the cost of a step is measured by the clock.
 double work_of(fs::path const& file, std::vector<std::string> const& overrides) {
   CaseSpec const spec = read_case(file, overrides);
   ParticleSet const particles = make_particles(spec);

@@ -44,7 +44,7 @@ int perform(app::Action const& action) {
     return error.code();
   } catch (SetUpStopped const& error) {
     tell("piola: {}\n", error.what());
-    if (ranks::several()) ranks::abort_all(app::stopped_by_signal);  // the others go on with their set-up
+    if (ranks::several()) ranks::abort_all(app::stopped_by_signal);  // the other ranks are still in their set-up
     return app::stopped_by_signal;
   } catch (InputError const& error) {
     return report(error.what(), app::bad_input);

@@ -18,7 +18,7 @@
 namespace piola::app {
 namespace {
 
-/// A row of a table of keys: what to write, what may be written, what holds otherwise, what it means.
+/// A row of a table of keys: key, allowed values, default, meaning.
 struct Row {
   std::string key, value, standard, meaning;
 };
@@ -50,7 +50,7 @@ std::string standard_text(std::string_view standard) {
   return standard.empty() ? "required" : "default: " + std::string(standard);
 }
 
-// In a table of the manual the column already says "default".
+// For a table of the manual, whose column already has the title "default".
 std::string in_column(std::string text, Layout layout) {
   constexpr std::string_view lead = "default: ";
   if (layout == Layout::markdown && text.starts_with(lead)) text.erase(0, lead.size());

@@ -39,7 +39,7 @@ struct Counted {
 };
 constexpr int most = 1024;
 
-/// Throws InputError for what does not run on ranks.
+/// Throws InputError for cases that do not run on ranks.
 Counted counted(CaseSpec const& spec, ParticleSet const& particles, Estimate cost, int ranks) {
   SetUpWatch const watch(fmt::format("counting what {} particles tell each other", count_text(particles.size())), {});
   Assembly const assembly = assemble(spec, particles);

@@ -62,7 +62,7 @@ AfterSweep SetUpWatch::operator()(std::string const& body, double done) {
   }
   slowest_sweep_ = std::max({slowest_sweep_, seconds_between(last_sweep_, now), 1e-6});
   last_sweep_ = now;
-  // The reserve is half as much again: time for the sweep to come, and to write what is kept.
+  // The reserve is 1.5 times this: time for the next sweep and for storing the packing.
   wall_.step_took(2 * slowest_sweep_);
   double const spent = seconds_between(packing_began_, now);
   if (!limits_.quiet && spent >= 2)
@@ -86,8 +86,8 @@ bool SetUpWatch::packs() const {
 }
 
 void SetUpWatch::end_if_due() {
-  // A packing ends by itself after a sweep, in good time before the wall time is over. Anything else has a few seconds
-  // in any case, so that a run takes a step however short its wall time is.
+  // A packing ends after a sweep, in good time before the wall-time limit. Other stages have a few seconds in any case,
+  // so that a run takes at least one step however short its wall time is.
   constexpr double last_moment = 0.1, least = 5;  // s
   double const elapsed = seconds_between(program_start, Clock::now());
   bool const late = wall_.exists() && elapsed >= std::max(least, 0.995 * limits_.wall_time - last_moment);

@@ -10,7 +10,7 @@
 namespace piola::app {
 namespace {
 
-/// "(1, 2, 0)"; what is 0 but for round-off reads as 0.
+/// "(1, 2, 0)"; values that are 0 up to round-off are printed as 0.
 std::string place_text(Vec<3> const& v, int dimension, double size) {
   std::string text = "(";
   for (int c = 0; c < dimension; ++c)

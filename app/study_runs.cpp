@@ -30,7 +30,7 @@ struct Ended {
   int signal = 0;             ///< that ended it; 0: none
 };
 
-/// Runs this very program; what it says goes to a file.
+/// Runs this program as a child process; its output goes to a file.
 Ended run_program(std::vector<std::string> words, fs::path const& says) {
   write_whole_file(says, "");  // replaces a link, which is never written through
   posix_spawn_file_actions_t actions;
@@ -67,7 +67,7 @@ std::string_view status_of(Ended const& ended) {
   }
 }
 
-/// The last line that a run said, without "piola: "; empty if it said nothing.
+/// The last line of the output of a run, without "piola: "; empty if there is none.
 std::string last_words(fs::path const& says) {
   constexpr std::uint64_t most = 10'000'000;
   constexpr std::size_t longest = 300;

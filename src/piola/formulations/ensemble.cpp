@@ -74,7 +74,7 @@ class Ensemble : public Formulation, public SetUpChecked {
     for (EnsemblePart& part : parts_) {
       counts_.push_back(static_cast<double>(part.assembly.particles.size()));
       body_count_ += part.blocks.size();
-      part.assembly = Assembly{};  // each formulation holds what it needs
+      part.assembly = Assembly{};  // each formulation keeps its own data
     }
   }
 
@@ -314,7 +314,7 @@ FieldInfo const* find_field(std::span<FieldInfo const> fields, std::string_view 
 }
 
 void Ensemble::sample(std::string_view field, std::span<double> values) const {
-  bool const wanted = ranks::own() == 0;  // others take part
+  bool const wanted = ranks::own() == 0;  // other ranks take part
   std::fill(values.begin(), values.end(), 0.0);
   if (meeting_ && meeting_->sample(field, values)) return;
   for (std::size_t k = 0; k < parts_.size(); ++k) {

@@ -21,7 +21,7 @@ std::vector<T> gathered(std::vector<T> const& whole, Blocks const& blocks) {
 
 ParticleSet particles_of(ParticleSet const& whole, EnsemblePart const& part) {
   Blocks const& blocks = part.blocks;
-  if (blocks.size() == whole.bodies.size()) return whole;  // shares its memory
+  if (blocks.size() == whole.bodies.size()) return whole;  // copy-on-write
   ParticleSet set;
   set.dimension = whole.dimension;
   set.X = gathered(whole.X.seen(), blocks);
@@ -88,7 +88,7 @@ void take_loads(Assembly const& whole, EnsemblePart& part) {
   }
 }
 
-/// Rules and rigid shapes of a formulation that has a contact of its own.
+/// Adds contact rules and rigid shapes for a formulation with kernel contact.
 void take_contact(Assembly const& whole, EnsemblePart& part) {
   Assembly& a = part.assembly;
   auto const info = find_formulation(part.formulation);

@@ -14,7 +14,7 @@ FieldInfo const& info_of(std::span<FieldInfo const> fields, std::string_view nam
   return *found;
 }
 
-/// Rank 0 has what comes out of sample(), and the others nothing.
+/// sample() has its result on rank 0 and none on other ranks.
 std::optional<std::vector<std::int64_t>> Formulation::owned() const {
   return ranks::own() == 0 ? std::nullopt : std::optional<std::vector<std::int64_t>>(std::in_place);
 }

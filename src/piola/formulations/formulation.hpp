@@ -90,7 +90,7 @@ struct Talk {
     double reach;  ///< cutoff in the reference configuration [m]
     int numbers;
   };
-  std::vector<std::vector<Told>> messages;  ///< per exchange of one right-hand side: groups sent together
+  std::vector<std::vector<Told>> messages;  ///< of one right-hand side, to the ranks that read any of it
   /// Exchange with spatial neighbours (CellMarks), after an allgather of the occupied cells.
   struct Near {
     struct Numbers {
@@ -201,7 +201,7 @@ class Formulation {
   /// Adds to velocities, also to prescribed ones [m/s].
   virtual void push(std::span<std::int64_t const> /*ids*/, std::span<std::array<double, 3> const> /*change*/) {}
 
-  /// Current state of free and rotating rigid shapes; that of the others follows from the case.
+  /// Current state of free and rotating rigid shapes; driven ones without rotation follow from the case.
   virtual std::vector<RigidState> rigids() const { return {}; }
 
   virtual std::optional<Failure> failure() const = 0;  ///< set once the state is inadmissible

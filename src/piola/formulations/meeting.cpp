@@ -37,7 +37,7 @@ void Meeting::read_masses(Formulations const& formulations) {
 
 void Meeting::read_state(Formulations const& formulations) {
   std::vector<Point> x, v;
-  if (colours_.any()) read_masses(formulations);  // what was deleted has none
+  if (colours_.any()) read_masses(formulations);  // deleted particles have none
   for (Share const& share : shares_) {
     x.resize(share.local.size());
     v.resize(share.local.size());
@@ -50,7 +50,7 @@ void Meeting::read_state(Formulations const& formulations) {
   place_images();
 }
 
-/// Points of particles that their formulation keeps apart from others itself by now.
+/// Removes points of particles that their formulation now keeps apart from other bodies itself.
 void Meeting::drop_lost_surfaces(Formulations const& formulations) {
   std::vector<char> lost;
   for (Share& share : shares_) {
@@ -78,7 +78,7 @@ void Meeting::place_images() {
   }
 }
 
-/// Forces on images are forces on what they are images of: the energy is one of the particles of the run.
+/// Adds the forces on images to their sources: the energy is a function of the particles of the run.
 void Meeting::fold_images() {
   if (images_.empty()) return;
   std::vector<Index> real;
@@ -323,7 +323,7 @@ std::vector<FieldInfo> Meeting::fields() { return field_infos(offered_by_contact
 
 bool Meeting::sample(std::string_view field, std::span<double> values) const {
   if (std::find(offered_by_contact.begin(), offered_by_contact.end(), field) == offered_by_contact.end()) return false;
-  if (values.empty()) return true;  // all ranks have them, rank 0 wants them
+  if (values.empty()) return true;  // all ranks have the values, only rank 0 needs them
   ObservedField const& observed = find_observed(field, offered_by_contact);
   for (auto const& at : system_.at_particles()) {
     auto const place = std::lower_bound(system_.ids().begin(), system_.ids().end(), at.id) - system_.ids().begin();

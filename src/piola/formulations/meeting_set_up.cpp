@@ -31,7 +31,7 @@ bool may_lose_surface(FormulationSpec const& formulation) {
   return info && info->contact && !says("description", "total_lagrangian");
 }
 
-/// Whether surfaces can keep two bodies apart, or a body and a rigid shape, whose number follows those of the bodies.
+/// Whether two bodies can be in surface contact, or a body and a rigid shape, numbered after the bodies.
 bool have_surfaces(Assembly const& whole, std::size_t a, std::size_t b) {
   std::size_t const n = whole.particles.bodies.size();
   auto const has = [&](std::size_t body) { return !whole.surfaces[body].points.empty(); };
@@ -172,7 +172,7 @@ void Meeting::find_particles(Continued const& continued) {
     Continued::Origin const origin = continued.origin(ids[k]);
     if (!origin.image) continue;
     auto const source = at.find(origin.id);
-    PIOLA_EXPECTS(source != at.end());  // what carries a point carries its image
+    PIOLA_EXPECTS(source != at.end());  // the host of a point has an image like the point
     images_.push_back({static_cast<Index>(k), source->second, origin.sign, origin.shift});
   }
 }
@@ -215,8 +215,8 @@ void Meeting::find_shares(std::vector<EnsemblePart> const& parts) {
   }
 }
 
-/// The directions that supports hold of particles on surfaces, and mirror planes of particles on them. Supports that
-/// hold the surface itself are the formulation's business, which gives back what moves it.
+/// Finds the directions that supports hold of particles on surfaces, and mirror planes of particles on them. Supports
+/// of the surface itself are enforced by the formulation.
 void Meeting::find_held(Continued const& continued) {
   std::map<std::int64_t, std::size_t> at;
   for (std::size_t k = 0; k < run_ids_.size(); ++k)

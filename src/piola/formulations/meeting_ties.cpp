@@ -11,7 +11,7 @@ constexpr std::size_t numbers_of_impulse = 6;
 
 std::array<double, 3> scaled(double factor, Vec<3> const& a) { return {factor * a[0], factor * a[1], factor * a[2]}; }
 
-/// Where particles start [m], by index into System::ids().
+/// Initial positions of particles [m], by index into System::ids().
 std::vector<Vec<3>> starts(Assembly const& whole, std::vector<std::int64_t> const& ids) {
   std::vector<Vec<3>> x;
   for (auto const id : ids) {
@@ -44,7 +44,7 @@ void MeetingTies::look(contact::System& system, std::vector<Vec<3>> const& x, st
   inverse.reserve(masses.size());
   for (double const m : masses) inverse.push_back(m > 0 ? 1 / m : 0);
   frequency2_ = ties_.frequency2(inverse);
-  if (springs_.empty())  // and not of shapes that have turned, whose last digits differ
+  if (springs_.empty())  // not for rotated shapes, which differ by round-off
     for (std::size_t r = 0; r < system.rigids().size(); ++r)
       springs_.push_back(ties_.springs_of_shape(r, system.rigids()));
   if (!loaded_.empty()) ties_.restore(std::exchange(loaded_, {}));

@@ -128,8 +128,8 @@ std::size_t size_of(MirrorImages::Kind kind, std::size_t D) {
 
 }  // namespace
 
-/// Place x' = X' + S (x - X) of an image, and F' = I + turn S (F - I) S: what its source's sign times place (times
-/// tensor) lacks. S = turn * sign.
+/// Adds the constant parts of x' = X' + S (x - X) of an image, and of F' = I + turn S (F - I) S, beyond the sign times
+/// position (or tensor) of the source. S = turn * sign.
 void MirrorImages::add_shifts(std::vector<Kind> const& values, std::vector<double>& shifts) const {
   auto const D = static_cast<std::size_t>(D_);
   for (std::size_t k = 0; k < transform_.size(); ++k) {

@@ -32,7 +32,7 @@ struct DerivedField {
 };
 /// "PrincipalStress" [Pa]: eigenvalues of the Cauchy stress. "PrincipalStrain": principal logarithmic (Hencky) strains
 /// ln(lambda), with the principal stretches lambda of the deformation gradient; in plane strain one of them is zero.
-/// Both in falling order. "CompressivePressure" [Pa]: -Pressure. See derived_fields.hpp for what makes them.
+/// Both in falling order. "CompressivePressure" [Pa]: -Pressure. Computed by derived_fields.hpp.
 std::span<DerivedField const> derived_fields();
 bool is_derived(std::string_view field);
 

@@ -21,7 +21,7 @@ SharedLines::SharedLines(ParticleSet const& set, Body const& body, Slots slots, 
     size[c] = own.first < own.last ? std::min(body.lattice[c] - 1, highest + 1) - first[c] + 1 : 0;
   }
   lines_ = LatticeLines(first, size);
-  // Where several particles share a place the last one stands for it.
+  // Of several particles at one position the one with the largest id counts.
   for (Index i = 0; i < slots.particles; ++i) {
     if (!lines_.holds(at(i))) continue;
     Index& there = lines_[at(i)];

@@ -2,8 +2,8 @@
 #pragma once
 #include "piola/math/tensor.hpp"
 
-/// Solids in rate form where deformation gradients are known: their stress, and its increment between two of them.
-/// T is double or lanes.
+/// Solids in rate form with known deformation gradients: their stress, and its increment between two of them. T is
+/// double or lanes.
 namespace piola::inline PIOLA_MACHINE {
 
 /// J sigma F^-T [Pa], sigma = S - p I.

@@ -53,9 +53,9 @@ PIOLA_FN V von_mises(SymMat<3, V> const& S) {
 
 /// An isotropic solid in rate form: Cauchy stress S - p I, the deviator S by its Jaumann rate and radial return to the
 /// yield surface of von Mises (Wilkins 1964; Simo, Hughes, Computational Inelasticity, 1998, box 3.1), the pressure p
-/// by an equation of state of density and energy. Heating is adiabatic. Pure: the history is the caller's. V is
-/// `double` or a pack of lanes; strengths that search for the flow stress are asked lane by lane, where a lane may
-/// yield at all.
+/// by an equation of state of density and energy. Heating is adiabatic. Pure functions: the caller owns the history. V
+/// is `double` or a pack of lanes; strengths that solve for the flow stress are evaluated lane by lane, only for lanes
+/// that may yield.
 template <class Strength, class Eos>
 class Solid {
  public:

@@ -183,7 +183,7 @@ void BodyBoundary::evaluate_speeds(bool continues) {
   put(&HeldDirection::speed);
 }
 
-/// Where the face is not deformed.
+/// For the undeformed face.
 Direction BodyBoundary::acceleration(LoadOnBody const& load, LoadItem const& item, double time) {
   return load.steady ? item.steady : acceleration_by(load.value, item.normal, item.factor, item.X, time);
 }
@@ -221,7 +221,7 @@ void BodyBoundary::evaluate_loads(bool continues) {
       }
   if (!continues) add_loads(0);
   add_loads(1);
-  for (auto& p : loaded_) std::copy_n(&p.dead[0][0], 6, &p.acting[0][0]);  // unless a pass turns what follows
+  for (auto& p : loaded_) std::copy_n(&p.dead[0][0], 6, &p.acting[0][0]);  // unless a pass rotates follower loads
 }
 
 bool BodyBoundary::begin_step(FieldRef const& x, double time, double dt) {

@@ -23,8 +23,8 @@ struct RigidShape {
 
   bool free = false;  ///< false: motion as prescribed
   double mass = 0;    ///< free [kg]; in 2D per length [kg/m]
-  /// Of a free body: XX YY ZZ XY YZ XZ about the centre at the start [kg m2]; in 2D ZZ alone, per length [kg m]. Empty:
-  /// of the homogeneous shape.
+  /// Inertia of a free body: XX YY ZZ XY YZ XZ about the centre at the start [kg m2]; in 2D ZZ alone, per length [kg
+  /// m]. Empty: of the homogeneous shape.
   std::optional<std::array<double, 6>> inertia;
   std::array<Expression, 3> gravity;  ///< of a free body: acceleration as a function of t [m/s2]
   std::array<bool, 3> held{};         ///< of a free body: directions in which it keeps its initial velocity

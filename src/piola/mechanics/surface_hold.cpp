@@ -8,7 +8,7 @@
 namespace piola {
 namespace {
 
-/// The direction in which places extend farthest: rows in this order are next to those with which they share particles.
+/// The direction of the largest extent of the places: in this order rows are next to those with common particles.
 std::size_t longest_extent(std::vector<HeldPlace> const& places) {
   Direction low = places.front().X, high = low;
   for (auto const& place : places)

@@ -7,7 +7,7 @@
 namespace piola {
 
 struct BenchOptions {
-  bool rates = true, column = true, variables = true;  ///< what to measure
+  bool rates = true, column = true, variables = true;  ///< selected measurements
   int particles_per_side = 64;
   std::array<int, 3> column_particles{26, 157, 26};
   int column_settling = 50;  ///< steps before the measurement: the first ones are short
@@ -19,7 +19,7 @@ struct BenchOptions {
 
 /// One measurement: whole time steps of a free, slowly spinning body.
 struct BenchRow {
-  std::string name;     ///< what was measured
+  std::string name;     ///< name of the measurement
   std::string machine;  ///< instruction set
   int threads = 1;
   long particles = 0;
@@ -65,8 +65,8 @@ struct BenchReport {
 /// Measures inside the real solver, cubic spline, neo-Hookean, double:
 ///  - rates: the full right-hand side of {p,F} JST-SPH, `paper` supports (about 54 neighbours), both Laplacian sweeps,
 ///    projections;
-///  - column: simulated time per processor time of the twisting column with the default scheme;
-///  - variables: the cost of the filter and of evolved J and H beside plain {p,F}.
+///  - column: simulated time per CPU time of the twisting column with the default scheme;
+///  - variables: the cost of the filter and of evolved J and H compared with plain {p,F}.
 BenchReport bench_jst_sph(BenchOptions const& options);
 
 std::string to_json(BenchReport const& report);

@@ -54,7 +54,7 @@ ProbeSpec probe_of(Problem const& problem) {
   return spec;
 }
 
-/// Steps to the end of the problem; looks at the probe beside the clock.
+/// Steps to the end of the problem; evaluates the probe and the clock.
 void run(Formulation& formulation, ParticleSet const& particles, Problem const& problem, AccuracyRow& row) {
   Probe probe(probe_of(problem), particles);
   std::vector<double> times, values;

@@ -67,7 +67,7 @@ ContactBenchReport bench_contact(ContactBenchOptions const& options) {
       made.push_back(make_formulation(assembly));
       stable.push_back(made.back()->stable_time_step());
     }
-    // They take turns, so that a slow moment of the machine is not the share of one of them.
+    // Alternating, so that disturbances of the computer affect all of them.
     for (int k = 0; k < options.repeats; ++k)
       for (std::size_t s = 0; s < made.size(); ++s) cpu[s] = std::min(cpu[s], fastest_step(*made[s], 1).cpu);
     for (std::size_t s = 0; s < made.size(); ++s)

@@ -69,7 +69,7 @@ nodal::Reference reference_of(ParticleSet const& set, nodal::Machine const& mach
 
 void measure_set_up(NodalBenchReport& report, NodalBenchOptions const& options, NodalSubject const& subject,
                     nodal::Machine const& machine) {
-  constexpr double enough = 1;  // s: what takes longer is measured once
+  constexpr double enough = 1;  // s: longer measurements are not repeated
   pin_to(1);
   Assembly const assembly = body(subject, report.machine);
   auto const& set = assembly.particles;

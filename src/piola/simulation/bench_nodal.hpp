@@ -7,7 +7,7 @@
 namespace piola {
 
 struct NodalBenchOptions {
-  bool rates = true, set_up = true;            ///< what to measure
+  bool rates = true, set_up = true;            ///< selected measurements
   int cube_side = 60;                          ///< particles per side of the cube on a lattice
   int cloud_side = 40;                         ///< of the jittered cube
   std::vector<int> lengths{40, 80, 160, 320};  ///< lengths of jittered columns 5 x 5 whose set-up is measured
@@ -36,9 +36,9 @@ struct NodalBenchReport {
 
 /// Measures inside the real solver, neo-Hookean rubber, double:
 ///  - rates: whole steps of given length (both sweeps, points, Verlet) of a large cube and of the small columns of the
-///    examples, on a lattice and on jittered clouds, beside the same machine's scalar path;
-///  - set_up: what it costs, part by part, beside one right-hand side; of long jittered columns, too.
-/// Throws InputError if the machine is unknown or not usable here.
+///    examples, on a lattice and on jittered clouds, compared with the scalar path;
+///  - set_up: its cost by parts, compared with one right-hand side; also for long jittered columns.
+/// Throws InputError if the instruction set is unknown or not usable here.
 NodalBenchReport bench_nodal(NodalBenchOptions const& options);
 
 std::string to_json(NodalBenchReport const& report);

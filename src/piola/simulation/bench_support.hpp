@@ -34,7 +34,7 @@ double mean_neighbours(Formulation const& formulation, std::int64_t particles);
 
 /// Whole time steps of one body.
 struct RateRow {
-  std::string name;     ///< what was measured
+  std::string name;     ///< name of the measurement
   std::string machine;  ///< instruction set
   int threads = 1;
   long particles = 0;             ///< without virtual particles

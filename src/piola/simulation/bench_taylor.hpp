@@ -42,9 +42,9 @@ struct TaylorBenchReport {
 /// Measures inside the real solver, cubic spline, linear elastic, double, whole steps (both halves):
 ///  - a plate in the fixed configuration and moving, a bar, a cube: the fastest step;
 ///  - the plate in shear waves that strain it by more than a tenth: all steps, list updates included;
-///  - the same machine's scalar path beside them;
-///  - what an update of the lists and Delaunay's triangulation of the deformed plate cost.
-/// Throws InputError if the machine is unknown or not usable here.
+///  - the scalar path for comparison;
+///  - the cost of a list update and of the Delaunay triangulation of the deformed plate.
+/// Throws InputError if the instruction set is unknown or not usable here.
 TaylorBenchReport bench_taylor_sph(TaylorBenchOptions const& options);
 
 std::string to_json(TaylorBenchReport const& report);

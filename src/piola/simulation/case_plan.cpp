@@ -64,7 +64,7 @@ PlanJson bodies_json(CasePlan const& plan) {
 CasePlan plan_of_case(CaseSpec spec, ParticleSet particles, double reading_seconds) {
   CasePlan plan;
   plan.facts = body_facts(spec, particles);
-  // Smaller cases are built, which tells what the formulation refuses; of larger ones a part.
+  // Smaller cases are built, which also detects input errors of the formulation; of larger ones a part.
   if (particles.size() < large_case) {
     Simulation simulation = build(std::move(spec), std::move(particles));
     Trial trial;

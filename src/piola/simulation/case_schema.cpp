@@ -96,7 +96,7 @@ Json key_schema(KeyInfo const& info) {
     if (info.key == "as") schema = {{"anyOf", {schema, {{"type", "object"}, {"additionalProperties", schema}}}}};
   if (info.kind != KeyInfo::Kind::word && !info.words.empty())
     schema = {{"anyOf", {std::move(schema), one_of_words(info.words)}}};
-  // In draft 7 nothing counts beside $ref.
+  // In draft 7 other keys next to $ref are ignored.
   if (schema.contains("$ref")) schema = {{"allOf", {std::move(schema)}}};
   std::string const range = interval_text(info.allowed);
   schema["description"] = described(std::string(info.meaning), value_text(info) + (range.empty() ? "" : ", " + range),

@@ -56,7 +56,7 @@ class Entry {
   Problems& problems_;
 };
 
-/// Names of variants become names of folders (folder_of): what cannot be one is refused.
+/// Names of variants become names of folders (folder_of): invalid ones are rejected.
 bool can_be_a_folder(std::string const& name) {
   constexpr std::size_t longest = 100;
   bool const plain = std::none_of(

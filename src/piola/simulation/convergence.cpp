@@ -10,7 +10,7 @@ constexpr double highest_order = 2;   // that of all formulations in smooth solu
 constexpr double lowest_order = 0.5;  // below it the limit is more than four changes away at a ratio of 1.5
 constexpr double factor_three = 1.25, factor_two = 3;  // of Roache, for three and two grids
 constexpr double factor_unordered = 3;                 // of Eca and Hoekstra
-// Differences of this size, beside the values, are rounding in sums of thousands of terms and of the digits of files.
+// Relative differences of this size are rounding in sums of thousands of terms and of the digits of files.
 constexpr double round_off = 1e-10;
 
 /// (h1^p - h2^p) / (h2^p - h3^p), which grows with p, and its limit ln(h1/h2) / ln(h2/h3) for p = 0.

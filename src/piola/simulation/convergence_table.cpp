@@ -13,7 +13,7 @@ using Kind = Convergence::Kind;
 constexpr std::array<std::string_view, 7> kind_words{"monotonic",   "two values", "unchanged", "slow",
                                                      "oscillating", "diverging",  "missing"};
 
-/// An error beside the size of the value that it is of: "1.3 %", or itself where the value is 0.
+/// An error relative to its value: "1.3 %", or absolute if the value is 0.
 std::string error_text(double error, double size) {
   double const percent = 100 * error / size;
   if (size > 0) return percent < 10 ? fmt::format("{:.2g} %", percent) : fmt::format("{:.0f} %", percent);

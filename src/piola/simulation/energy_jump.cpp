@@ -25,7 +25,7 @@ constexpr double lasting_crossings = 2;
 /// From here on the end of a run is no onset of a load.
 constexpr std::int64_t first_steps = 50;
 
-/// Whether a body has a pressure at the start, whose energy is in no book.
+/// Whether a body has an initial pressure, whose energy no column contains.
 bool starts_under_pressure(CaseSpec const& spec) {
   return std::any_of(spec.bodies.begin(), spec.bodies.end(),
                      [](BodySpec const& body) { return body.formulation.formulas.contains("initial_pressure"); });
@@ -43,7 +43,7 @@ bool may_do_work(CaseSpec const& spec) {
          starts_under_pressure(spec);
 }
 
-/// Time of a pressure wave across the finest spacing [s]; 0 where no law knows a speed.
+/// Transit time of a pressure wave across the finest spacing [s]; 0 if no law has a wave speed.
 double crossing_time(CaseSpec const& spec, ParticleSet const& particles) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
@@ -99,7 +99,7 @@ void EnergyJumpGuard::look(Formulation const& formulation, Moment const& moment,
     lowest_time_ = moment.time;
     lowest_step_ = static_cast<double>(moment.step);
   }
-  // Where total energy is kept, kinetic energy may come out of an internal energy below zero, which there is not.
+  // If total energy is conserved, kinetic energy may come from an internal energy below zero, which is unphysical.
   double const out_of_nothing = pressed_ ? 0 : now.kinetic_energy - 2 * scale_.without_motion();
   double const created = std::max(own - lowest_, out_of_nothing);
   if (!(created > limit_ * had)) {

@@ -67,12 +67,12 @@ Pace pace_of(std::string_view formulation) {
 
 constexpr double filter_factor = 2;     ///< of the volumetric filter of jst_sph
 constexpr double program_bytes = 31e6;  ///< the program with its libraries
-constexpr double messages_bytes = 9e6;  ///< what MPI and messages take of a rank
-constexpr double output_bytes = 14e6;   ///< what files take of rank 0, however many particles there are
+constexpr double messages_bytes = 9e6;  ///< memory of a rank for MPI and messages
+constexpr double output_bytes = 14e6;   ///< memory of rank 0 for files, for any number of particles
 constexpr double row_stages = 2;        ///< right-hand sides that a row of history.csv is worth
 constexpr double frame_seconds = 2.4e-6, checkpoint_seconds = 1e-6;  ///< per particle
 constexpr double picture_seconds = 0.2;
-constexpr double compressed = 0.42;     ///< share that is left of the numbers of a frame
+constexpr double compressed = 0.42;     ///< remaining fraction of the numbers of a frame
 constexpr double picture_bytes = 0.6;   ///< per pixel
 constexpr double cell_bytes = 12;       ///< of a history.csv
 constexpr double kept_checkpoints = 2;  ///< at a time
@@ -86,7 +86,7 @@ double slowness(std::string const& machine) {
   return factors.back().second;
 }
 
-/// Whether jst_sph filters the volumetric energy, as far as the case tells.
+/// Whether jst_sph filters the volumetric energy, as far as given by the case.
 bool is_filtered(BodySpec const& body) {
   FormulationSpec const& spec = body.formulation;
   auto const word = [&](std::string_view key, std::string_view standard) {
@@ -172,7 +172,7 @@ double frame_bytes(OutputSpec const& output, std::vector<FieldInfo> const& field
 }
 
 double picture_pixels(OutputSpec const& output) {
-  constexpr double usual = 800e3;  // of a size that follows what is shown
+  constexpr double usual = 800e3;  // for a size that follows the content
   double const given = static_cast<double>(output.pictures.width) * output.pictures.height;
   return given > 0 ? given : usual * output.pictures.scale * output.pictures.scale;
 }
@@ -221,7 +221,7 @@ void count_steps(CaseSpec const& spec, double particles, double change, Estimate
   e.most_run_seconds = run_seconds_of(spec, particles, e.most_steps, e);
 }
 
-/// `side`: processor time of one right-hand side, `tables`: of what comes before [s].
+/// `side`: CPU time of one right-hand side, `tables`: before the first one [s].
 void count_times(CaseSpec const& spec, ParticleSet const& particles, double stages, double side, double tables,
                  Estimate& e) {
   double const all = static_cast<double>(particles.size());
@@ -241,7 +241,7 @@ struct MemoryInSetUp {
   double all, everywhere;
 };
 
-/// `in_steps`: of the body's arrays; `for_a_while`: what it takes beside them where it is not shared [bytes].
+/// `in_steps`: of the body's arrays; `for_a_while`: temporary memory if it is not distributed [bytes].
 MemoryInSetUp memory_in_set_up(CaseSpec const& spec, std::size_t b, Pace const& pace, double n, double in_steps,
                                double for_a_while) {
   BodySpec const& body = spec.bodies[b];
@@ -252,7 +252,7 @@ MemoryInSetUp memory_in_set_up(CaseSpec const& spec, std::size_t b, Pace const& 
   return {in_steps + n * besides, n * pace.in_set_up->everywhere};
 }
 
-/// Fills in what follows from rule, memory and disk.
+/// Computes the values that depend on rule, memory and disk.
 void count_work(CaseSpec const& spec, ParticleSet const& particles, double stages, double probed, Estimate& e) {
   auto const D = static_cast<std::size_t>(particles.dimension - 1);
   double const slow = slowness(spec.run.machine), all = static_cast<double>(particles.size());

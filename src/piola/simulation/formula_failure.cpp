@@ -12,7 +12,7 @@ namespace {
 
 using Components = std::array<Expression, 3>;
 
-/// Formulas of one section of the case, and what they act on.
+/// Formulas of one section of the case, with their targets.
 struct ActingFormulas {
   std::string owner;  ///< load on body "bar": pressure
   Components const& formulas;
@@ -21,7 +21,7 @@ struct ActingFormulas {
 };
 
 std::optional<Failure> first_failure(ActingFormulas const& acting, ParticleSet const& particles, Moment const& moment) {
-  for (double const part : {-1.0, -0.5, 0.0, 1.0}) {  // instants at which steps ask for it
+  for (double const part : {-1.0, -0.5, 0.0, 1.0}) {  // times of evaluation within a step
     double const t = std::max(0.0, moment.time + part * moment.dt);
     if (t > acting.until) continue;
     for (Expression const& formula : acting.formulas) {

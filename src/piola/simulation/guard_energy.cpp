@@ -125,14 +125,14 @@ class DissipationGuard : public Guard {
     double const viscous = column_of(d, "viscous_loss").value_or(0);
     part_ = {d.stabilisation_loss, d.projection_loss, viscous, 0, 0};
     double const gone = look.scale.initial() + d.external_work - d.total_energy() - d.damping_loss;
-    // Energy that leaves with deleted particles is no loss of the scheme, nor is what a case damps on purpose.
+    // Energy of deleted particles is no loss of the scheme, nor is intended damping of a case.
     bool const intended = column_of(d, "deleted_particles").value_or(0) > 0;
     double const rubbed = column_of(d, "friction_heat").value_or(0) + column_of(d, "contact_dissipation").value_or(0) +
                           column_of(d, "tie_heat").value_or(0);
     if (!intended) part_[3] = gone - d.stabilisation_loss - d.projection_loss - rubbed;
     part_[4] = d.stabilisation_loss + d.projection_loss + rubbed - gone;
     for (double& p : part_) p = std::isfinite(p) ? std::max(p, 0.0) : 0.0;
-    // As with a rise: the first looks at a load may miss most of it.
+    // As with a rise: the first checks under a load may miss most of it.
     looks_ = share() > limit_ ? looks_ + 1 : 0;
     last_ = look.last;
   }

@@ -71,7 +71,7 @@ void GuardObserver::load(NamedState& reader, Moment const& moment) {
   auto const state = reader.all("guards");
   last_look_ = state[0];
   told_.assign(state.begin() + 1, state.end());
-  told_.resize(guards_.size(), 0);  // checkpoints of older versions know fewer guards
+  told_.resize(guards_.size(), 0);  // checkpoints of older versions have fewer guards
   scale_.load(reader);
   jump_.load(reader, moment.time);
   for (auto const& guard : guards_) guard->load(reader);

@@ -15,7 +15,7 @@ double rotation_of(double const* F) {
   return std::atan2(0.5 * std::sqrt(x * x + y * y + z * z), 0.5 * (F[0] + F[4] + F[8] - 1));
 }
 
-/// The largest principal Green strain, in size, where it is above `known`, else `known`.
+/// The largest magnitude of a principal Green strain, at least `known`.
 double strain_of(double const* F, double known) {
   SymMat<3> E;
   double square = 0;
@@ -33,9 +33,9 @@ double strain_of(double const* F, double known) {
 }
 
 /// Strain and rotation of bodies whose law is for small ones. P = C : (sym F - 1) has errors of first order. Cauchy's
-/// stress P F^T / J differs from P, and from a symmetric tensor, by (strain + rotation) of itself; a rotation by r
-/// alone is taken for a strain of r^2/2. At the default limits that makes 2 % by strain, and 5 % and a strain of
-/// 0.00125 by rotation.
+/// stress P F^T / J differs from P, and from a symmetric tensor, by a relative (strain + rotation); a rotation by r
+/// alone appears as a strain of r^2/2. At the default limits these are 2 % by strain, and 5 % and a strain of 0.00125
+/// by rotation.
 class SmallStrainGuard : public Guard {
  public:
   SmallStrainGuard(CaseSpec const& spec, ParticleSet const& particles)

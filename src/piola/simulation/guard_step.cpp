@@ -25,8 +25,8 @@ double speed_at_start(BodySpec const& spec, ParticleSet const& particles, Body c
   return largest;
 }
 
-/// cfl times spacing over the speed of waves and of the motion at the start, the least of all bodies [s]; infinity if
-/// no law knows a speed.
+/// cfl times spacing over the initial speed of waves and of the motion, smallest of all bodies [s]; infinity if no law
+/// has a wave speed.
 double step_of_waves(CaseSpec const& spec, ParticleSet const& particles) {
   constexpr double usual_cfl = 0.3;
   double step = std::numeric_limits<double>::infinity();
@@ -116,7 +116,7 @@ class StepGuard : public Guard {
  private:
   double fraction() const { return std::isfinite(m_.least) && reference_ > 0 ? m_.least / reference_ : 1; }
 
-  /// The particle whose volume has changed most: it is what waves cross fastest.
+  /// Finds the particle whose volume has changed most: waves cross it fastest.
   void find_where(Look const& look) {
     if (!look.fields.knows("Jacobian")) return;
     auto const J = look.fields.values("Jacobian");

@@ -14,7 +14,7 @@
 namespace piola {
 namespace {
 
-constexpr int history_rows = 500;  // of a run whose case does not say how many
+constexpr int history_rows = 500;  // default number of rows of the history
 
 double history_interval(CaseSpec const& spec) {
   return spec.output.history_every > 0 ? spec.output.history_every : spec.run.end / history_rows;

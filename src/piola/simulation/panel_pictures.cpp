@@ -9,7 +9,7 @@ namespace {
 
 int scaled(int side, double scale) { return 2 * std::max(1, static_cast<int>(std::lround(scale * side / 2))); }
 
-/// Pictures beside each other, each with its own bar; a caption stands in place of the title.
+/// Adjacent pictures, each with its own bar; a caption replaces the title.
 Image each_with_its_bar(std::span<PanelPicture const> panels, PicturesSpec const& pictures, int columns) {
   std::vector<Image> images;
   auto const rows =

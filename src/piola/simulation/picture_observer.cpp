@@ -14,8 +14,8 @@ namespace piola {
 
 namespace {
 
-/// Rounded as in the file of what is kept: whether a picture is drawn at once or at the end depends on the clock, and
-/// must not show.
+/// Rounded as in the stored file: whether a picture is drawn at once or at the end depends on the clock, and must not
+/// be visible.
 double as_kept(double value) { return static_cast<double>(static_cast<float>(value)); }
 
 /// Length and entries of each list.
@@ -203,12 +203,11 @@ void PictureObserver::draw(std::size_t number, Kept const& kept) {
   drawn_[number] = look();
 }
 
-/// While a run goes on pictures are drawn for those who watch it; at the end those are drawn again whose window or
-/// range has changed since.
+/// Draws previews during a run; at the end pictures whose window or range has changed are drawn again.
 void PictureObserver::draw_if_cheap(std::size_t number, Kept const& kept) {
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::seconds pause(1);
-  constexpr int work_between = 50;  // times what the last one took
+  constexpr int work_between = 50;  // multiple of the time of the last picture
   auto const now = Clock::now();
   if (now < next_drawn_) return;
   draw(number, kept);

@@ -72,7 +72,7 @@ std::vector<std::size_t> own_of(ProbeSpec const& spec) {
   return list;
 }
 
-/// Smallest and largest of what was seen, in any order: values that are none do not count.
+/// Smallest and largest value, in any order: NaN is skipped.
 struct Extrema {
   double low = std::numeric_limits<double>::quiet_NaN(), high = low;
   void see(double value) { add({value, value}); }

@@ -67,7 +67,7 @@ bool counts(QuantitySpec const& spec, double time) {
   return time >= spec.from * (1 - rounding) && time <= spec.until * (1 + rounding);
 }
 
-/// The rows that count. All of them for a change, which asks for values at two times, between rows.
+/// The rows to evaluate. All of them for a change, which needs values at two times, between rows.
 Series rows_of(QuantitySpec const& spec, Series all) {
   if (spec.take == Take::change) return all;
   Series part;

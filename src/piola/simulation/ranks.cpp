@@ -116,7 +116,7 @@ std::vector<double> gather_traffic() {
 /// Time of this rank for redistributing values to the writing ranks [s].
 double gathered = 0;
 
-/// Adds its life time's share to it.
+/// Adds its lifetime to `gathered`.
 class Gathering {
  public:
   Gathering() = default;
@@ -128,7 +128,7 @@ class Gathering {
   double start_ = ranks::spent().in_exchanges;
 };
 
-/// The formulation of rank 0, whose calls the other ranks take part in.
+/// The formulation on rank 0, whose collective calls are executed on all ranks.
 class Conductor final : public Formulation, public SetUpChecked {
  public:
   explicit Conductor(std::unique_ptr<Formulation> formulation) : own_(std::move(formulation)) {}
@@ -313,7 +313,7 @@ int follow(Simulation& simulation) {
   std::optional<ProbeRow> probes;  // made when rank 0 has made them without complaint
   for (;;) {
     Aside aside;
-    Order const order = send({Order::What::end});  // overwritten by what rank 0 sends
+    Order const order = send({Order::What::end});  // overwritten by the broadcast of rank 0
     if (!is_for_observers(order)) aside.forget();
     if (order.what == Order::What::end) {
       ranks::agree({});

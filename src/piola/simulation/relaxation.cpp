@@ -73,7 +73,7 @@ void Relaxation::judge(Formulation const& formulation, double dt) {
   rest_.reached = rest_.left <= most_left;
 }
 
-/// Root of the mean square over all particles, at least what a body of this size loses by rounding [m].
+/// Root mean square over all particles, at least the rounding error for a body of this size [m].
 double Relaxation::displacement(Formulation const& formulation) const {
   auto const fields = formulation.fields();
   if (std::ranges::find(fields, "Displacement", &FieldInfo::name) == fields.end())

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The pictures of a case with the field, the range and the look asked for; of a run without one, those alone.
+/// The pictures of a case with the requested field, range and view; for a run without a case, these alone.
 PicturesSpec as_asked(std::optional<CaseSpec> const& found, RenderOptions const& options) {
   PicturesSpec pictures = found ? found->output.pictures : PicturesSpec{};
   auto const change = [&](PictureSpec const& picture) {
@@ -233,7 +233,7 @@ void expect_frames(fs::path const& folder) {
                   folder.string()));
 }
 
-/// Pictures of one run, or of several beside each other, by the numbers of the frames of the first.
+/// Pictures of one run, or of several runs in adjacent panels, by the frame numbers of the first.
 class Pictures {
  public:
   Pictures(fs::path const& folder, RenderOptions const& options) {
@@ -247,7 +247,7 @@ class Pictures {
       of_fields_.push_back(std::make_unique<Renderer>(first().run(), options, picture));
     }
     for (std::size_t k = 1; k < runs_.size(); ++k) runs_[0]->share_with(*runs_[k]);
-    for (std::size_t k = 1; k < runs_.size(); ++k) runs_[0]->share_with(*runs_[k]);  // what came later, too
+    for (std::size_t k = 1; k < runs_.size(); ++k) runs_[0]->share_with(*runs_[k]);  // including later frames
     bool const all_differ = std::set<std::string>(names_.begin(), names_.end()).size() == names_.size();
     for (std::size_t k = 0; !all_differ && k < names_.size(); ++k) names_[k] = name_of(folders[k]);
     if (options.panels) make_panels(options);
@@ -325,7 +325,7 @@ class Pictures {
   std::vector<std::string> names_;
   std::vector<std::unique_ptr<Renderer>> of_fields_;
   PicturesSpec asked_;                             ///< of the first run
-  std::vector<std::unique_ptr<Renderer>> panels_;  ///< if panels are asked for
+  std::vector<std::unique_ptr<Renderer>> panels_;  ///< if panels are requested
 };
 
 /// `count` of the frames, those nearest to equal steps of time; a frame may be there several times.

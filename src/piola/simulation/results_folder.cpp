@@ -76,7 +76,7 @@ std::vector<KeptFile> listed_copies(fs::path const& results) {
   }
 }
 
-/// Removes what Piola wrote, and the folder if nothing is left in it. A link is removed, not what it leads to.
+/// Removes Piola's files, and the folder if it is then empty. A link is removed, not its target.
 void clear_folder(fs::path const& results, char const* name) {
   fs::path const folder = results / name;
   std::error_code error;
@@ -94,7 +94,7 @@ void clear_folder(fs::path const& results, char const* name) {
   if (fs::is_empty(folder)) remove_file(folder);
 }
 
-/// Title of the run whose results lie in a folder; nothing if there are none.
+/// Title of the run whose results are in a folder; empty if there are none.
 std::optional<std::string> title_in(fs::path const& folder) {
   FileToRead log(folder / "log.txt");
   std::string line(longest_headline, '\0');
@@ -105,8 +105,7 @@ std::optional<std::string> title_in(fs::path const& folder) {
   return line.substr(colon + 2);
 }
 
-/// An empty log counts for nothing: it is what a run leaves that was killed before its first word. What a stopped
-/// set-up leaves counts for nothing either.
+/// Ignores an empty log, left by a run that was killed before its first line, and the files of a stopped set-up.
 bool holds_anything(fs::path const& folder) {
   return std::any_of(fs::directory_iterator(folder), fs::directory_iterator(), [](fs::directory_entry const& entry) {
     std::error_code no_file;

@@ -11,7 +11,7 @@ namespace {
 
 Quaternion turn_of(RigidState const& state) { return turn_by({{state.turn[0], state.turn[1], state.turn[2]}}); }
 
-/// A share of the way from one to another.
+/// Interpolates between two states by a fraction.
 RigidState between(RigidState const& a, RigidState const& b, double share) {
   RigidState state = a;
   for (std::size_t c = 0; c < 3; ++c) state.centre[c] += share * (b.centre[c] - a.centre[c]);

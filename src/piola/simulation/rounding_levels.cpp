@@ -14,7 +14,7 @@ namespace {
 /// Round-off of 1e-16 in each of some thousand steps and sums.
 constexpr double rounding = 1e-12;
 
-/// The scales that the summary of a run knows.
+/// The scales in the summary of a run.
 std::map<std::string, double> scales_in(std::filesystem::path const& folder) {
   std::map<std::string, double> scales;
   std::error_code error;

@@ -12,7 +12,7 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// A step so small that the run would never end says that the state is beyond repair.
+/// A step so small that the run would never end indicates a broken state.
 bool collapsed(double stable, RunSpec const& run, Moment const& moment) {
   double const least = run.min_step > 0 ? run.min_step : 1e-6 * moment.first_dt;
   return !(stable > 0) || !std::isfinite(stable) || stable < least;
@@ -27,8 +27,8 @@ struct Step {
   bool cut_to_end;  ///< a run with a later end would take another one
 };
 
-/// The stable step, shortened by the user's bound and to hit the end time exactly. A rest of less than a millionth of a
-/// step is taken along rather than left for a step of its own.
+/// The stable step, shortened by the user's bound and to hit the end time exactly. A remainder of less than a millionth
+/// of a step is added to the last step.
 Step choose_step(double stable, RunSpec const& run, Moment& moment) {
   moment.bounded_by_max_step = run.max_step < stable;
   double const dt = std::min(stable, run.max_step);

@@ -108,15 +108,15 @@ Moment begin_new(Simulation& s, RunOptions const& options, Journal& journal, Wat
   return moment;
 }
 
-/// Bytes of what a formulation saves.
+/// Bytes of the saved state of a formulation.
 std::int64_t size_of_state(Formulation const& formulation) {
   StateSize size;
   formulation.save(size);
   return static_cast<std::int64_t>(size.numbers() * sizeof(double));
 }
 
-/// A resumed run: everything as it was when the newest good checkpoint was written, but for the changes that the user
-/// wants and that leave the state at each time as it is.
+/// Resumes a run: restores the state of the newest valid checkpoint, with permitted changes of the case that do not
+/// affect the state at a given time.
 Moment begin_again(Simulation& s, RunOptions const& options, Journal& journal, Watch& watch) {
   Problems problems;
   compare_with_kept_list(s.spec, options.folder, problems);
@@ -179,7 +179,7 @@ std::string missing_results(RunOptions const& options, Watch& watch) {
       missing.size() == 1 ? "was" : "were");
 }
 
-/// A formula that was no number is the cause of what particles had then.
+/// Names a formula that was not finite as the cause of a failure.
 void blame_formula(Simulation const& s, Moment const& moment, March& last) {
   auto formula = failure_of_formula(s.spec, s.particles, moment);
   if (!formula) return;
@@ -209,7 +209,7 @@ void add_watched(Summary& summary, Simulation const& s, Watch const& watch, Jour
   summary.relaxation = {rest.reached, rest.residual, rest.stops};
 }
 
-/// Makes sure that the folder may be used, and keeps others out of it.
+/// Checks that the folder may be used, and locks it against other processes.
 std::unique_ptr<FolderLock> take_folder(Simulation const& s, RunOptions const& options) {
   if (options.folder.empty()) return nullptr;
   if (!options.resume) check_results(options.folder, {s.spec.title, options.case_file, options.force});

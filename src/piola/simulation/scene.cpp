@@ -38,7 +38,7 @@ std::optional<Up> against_gravity(CaseSpec const& spec) {
   return std::nullopt;
 }
 
-/// Where a shape stands and how it has turned.
+/// Sets the pose of a shape.
 void put(RigidShape& shape, RigidState const& state) {
   Mat<3> const turn = matrix_of(turn_by({{state.turn[0], state.turn[1], state.turn[2]}}));
   auto const turned = [&](std::array<double, 3> const& a) {

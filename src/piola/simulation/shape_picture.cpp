@@ -33,7 +33,7 @@ Colour colour_number(std::size_t k) {
   return colour;
 }
 
-/// The colours of particles and what they mean.
+/// The colours of particles and their legend.
 struct Paint {
   std::vector<Colour> colours;
   std::vector<LegendEntry> legend;

@@ -18,7 +18,7 @@ struct NotThere : std::runtime_error {
   NotThere() : std::runtime_error("rank 0 could not read a checkpoint") {}
 };
 
-/// Broadcasts what rank 0 reads. All members are collective.
+/// Reads on rank 0 and broadcasts the values. All members are collective.
 class SharedReader final : public StateReader {
  public:
   explicit SharedReader(StateReader* of_first) : reader_(of_first) {}

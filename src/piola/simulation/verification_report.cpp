@@ -52,7 +52,7 @@ std::string new_name(std::string const& text, std::string const& extension, std:
   return name;
 }
 
-/// Copies the last picture of a run beside the page; its name there, or "".
+/// Copies the last picture of a run to the folder of the page; returns its name there, or "".
 std::string keep_picture(fs::path const& folder, std::string const& case_name, VariantRun const& run,
                          std::set<std::string>& taken) {
   if (run.picture.empty()) return "";
@@ -92,7 +92,7 @@ std::string runs_text(fs::path const& folder, CaseVerification const& c, std::se
   return text;
 }
 
-/// Draws plots beside the page. One of which no value can be drawn is left out.
+/// Draws plots to the folder of the page. A plot without values is omitted.
 std::string plots_text(fs::path const& folder, CaseVerification const& c, std::vector<Plot> const& plots,
                        std::set<std::string>& taken) {
   std::string text;

@@ -131,7 +131,7 @@ std::optional<std::pair<double, std::string>> field_error(Check const& c, std::v
   return std::nullopt;
 }
 
-/// The number that a check looks at, with its unit; notes in the row why there is none.
+/// The value of a check, with its unit; stores the reason in the row if there is none.
 std::optional<std::pair<double, std::string>> measured_by(Check const& c, std::vector<ReadRun const*> const& runs,
                                                           VerificationRow& row) {
   if (c.as == Check::As::field_error) return field_error(c, runs, row);
@@ -150,7 +150,7 @@ std::optional<std::pair<double, std::string>> measured_by(Check const& c, std::v
   return std::nullopt;
 }
 
-/// Judges what was found; `runs` are that of the check and those that it is compared with.
+/// Judges one check; `runs` are that of the check and those that it is compared with.
 VerificationRow compare_one(std::string const& case_name, Check const& c, std::vector<ReadRun const*> const& runs) {
   VerificationRow row = row_of(case_name, c);
   for (ReadRun const* each : runs) {
@@ -185,7 +185,7 @@ VerificationRow compare_one(std::string const& case_name, Check const& c, std::v
   return row;
 }
 
-/// Names of the variants that a check looks at, its own first.
+/// Names of the variants that a check needs, its own first.
 std::vector<std::string> involved(Check const& c) {
   std::vector<std::string> names{c.variant};
   if (c.as != Check::As::value) names.push_back(c.relative_to);
@@ -239,7 +239,7 @@ VariantRun run_variant(fs::path const& case_file, CheckVariant const& variant, f
     run.picture = outcome.last_picture;
     run.summary = to_json(outcome.summary);
     run.problem = outcome.failure;
-  } catch (std::runtime_error const& error) {  // one case that cannot run must not hide the others
+  } catch (std::runtime_error const& error) {  // one case that cannot run must not hide other results
     run.problem = error.what();
   }
   return run;
@@ -269,7 +269,7 @@ Plan plan_of(fs::path const& folder, VerifyOptions const& options) {
   return plan;
 }
 
-/// The fields that checks look at in a variant.
+/// The fields that checks of a variant need.
 std::vector<FieldSampler::Wish> wishes_of(std::vector<Check> const& checks, std::string const& variant) {
   std::vector<FieldSampler::Wish> wishes;
   for (Check const& c : checks) {
@@ -299,7 +299,7 @@ double work_of(Plan const& plan, CheckVariant const& variant, Weigh const& weigh
   if (!weigh) return 1;
   try {
     return weigh(plan.file, variant.set);
-  } catch (std::runtime_error const&) {  // the run itself will say what is wrong
+  } catch (std::runtime_error const&) {  // the run itself reports the error
     return 0;
   }
 }

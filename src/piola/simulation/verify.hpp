@@ -24,11 +24,11 @@ enum class Evidence {
   theory,           ///< closed forms, conservation laws, orders of convergence
   finite_elements,  ///< converged, published or of bench/finite_elements
   experiment,
-  paper,           ///< what the paper of the formulation shows or claims
+  paper,           ///< results or claims of the paper of the formulation
   other_code,      ///< numbers of other programs
   own_trial,       ///< an independent trial implementation of the same scheme
   own_refinement,  ///< this program with more particles
-  own_regression,  ///< what this program gave before
+  own_regression,  ///< earlier results of this program
   code             ///< holds by construction: detects errors in the code, no evidence for the result
 };
 /// Words as in checks.toml, e.g. "finite elements"; in the order of Evidence.

@@ -14,7 +14,7 @@ namespace piola {
 
 namespace {
 
-/// Of "material.density", else of "material".
+/// Place of "material.density", else of "material".
 Place place_of_doubt(BodySpec const& body, std::string const& key) {
   std::size_t const dot = key.find('.');
   if (dot == std::string::npos) return place_of(body.places, key);
@@ -98,7 +98,7 @@ std::string energy_text(std::optional<Diagnostics> const& start) {
                      quantity_text(*energy, "J", 3), number_text(total > 0 ? 100 * *energy / total : 0.0, 2));
 }
 
-/// Bodies, and bodies and rigid shapes, that push each other from the start. otherwise: what else can be done.
+/// Warns of bodies, and bodies and rigid shapes, that are in contact from the start. otherwise: other remedies.
 void warn_of_touch(CaseSpec const& spec, ParticleSet const& particles, std::optional<Diagnostics> const& start,
                    std::string const& otherwise, Problems& found) {
   constexpr double touching = 1.001, reach = 3, much = 1e-3;
@@ -152,8 +152,7 @@ void warn_of_thin_parts(CaseSpec const& spec, Problems& found) {
   }
 }
 
-/// Bodies whose formulation is known to be inaccurate on their particles (docs/user/formulations.md, Figures to
-/// expect).
+/// Warns of bodies whose formulation is inaccurate on their particles (docs/user/formulations.md, Figures to expect).
 void warn_of_inaccurate_particles(CaseSpec const& spec, Problems& found) {
   using Arrangement = ShapeSpec::Arrangement;
   for (BodySpec const& body : spec.bodies) {
@@ -181,7 +180,7 @@ void refuse_unpaid_contact(CaseSpec const& spec, ParticleSet const& particles, D
   auto const energy = contact_energy(start);
   if (!energy || !knows_contact(spec) || (spec.contact && is_given(spec.contact->places, "law"))) return;
   double const total = start.total_energy();
-  bool const moves = total - *energy > 0;  // at rest the energy that loads will bring is not known: a warning says it
+  bool const moves = total - *energy > 0;  // at rest the energy of later loads is unknown: a warning reports this
   if (!moves || !(*energy > largest_unpaid_contact * total)) return;
   Problems problems;
   warn_of_touch(

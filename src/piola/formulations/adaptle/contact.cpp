@@ -22,7 +22,7 @@ double number_of(double h, double dp, double n) {
         double const z = (m + 1) * dp, square = z * z + (i * i + k * k) * dp * dp;
         double s = 0, W = 0;
         kernel.evaluate(square, s, W);
-        // |W'| z / r = s z; layers m apart meet m + 1 times.
+        // |W'| z / r = s z; there are m + 1 pairs of layers at distance m.
         sum += (m + 1) * n * std::pow(W / reference, n - 1) * s * z / reference;
       }
   return dp * sum;
@@ -50,8 +50,7 @@ void add_rigid_contacts(System const& s, Index i, exec::ExactSums<1>& sum) {
   }
 }
 
-/// Sums the energies of the pairs for which counts(pair, i, j) is true, at the positions of half time, which are known
-/// of ghost particles, too.
+/// Sums the energies of the pairs with counts(pair, i, j), at the positions at half time, which ghosts have, too.
 template <int D, class Counts>
 exec::ExactSums<1> energy_of_pairs(System const& s, Counts const& counts) {
   exec::ExactSums<1> sum;
@@ -79,7 +78,7 @@ exec::ExactSums<1> energy_of_contacts(System const& s) {
   return sum;
 }
 
-/// The largest pressure of two half spaces that meet at the speed v [Pa].
+/// The largest pressure of two half spaces that collide at the speed v [Pa].
 double shock_pressure(BodyConstants const& a, BodyConstants const& b, double v) {
   double const c_a = std::sqrt(a.bulk_modulus / a.rho0), c_b = std::sqrt(b.bulk_modulus / b.rho0);
   double const Z_a = a.rho0 * c_a, Z_b = b.rho0 * c_b;

@@ -20,7 +20,7 @@ double strain_of(int dimension, Mat<3> const& F, SymMat<3> const& stress, BodyCo
 
 }  // namespace
 
-/// Evaluates convert_when; true if a particle wants to convert by it, of any rank.
+/// Evaluates convert_when; returns whether a particle of any rank is to convert by it.
 bool Particles::wishes_by_formula() {
   double any_wish = 0;
   bool asked = false;
@@ -119,8 +119,8 @@ void Particles::convert(double dt) {
   choose_material();
 }
 
-/// The particle and all that have it as a reference neighbour, because their deformation gradient now depends on the
-/// positions of an Eulerian particle.
+/// Marks the particle and all that have it as a reference neighbour, because their deformation gradient now depends on
+/// the positions of an Eulerian particle.
 void Particles::lose_surface(Index slot) {
   lost_.lose(set_, order_, slot, 2 * body_[at(body_of_[at(slot)])].material_h);
 }
@@ -132,7 +132,7 @@ void Particles::make_eulerian(Index i, double dt, bool by_guard, ConversionSums&
   books_.converted += 1;
   books_.by_guard += by_guard ? 1 : 0;
   if (lost_.used()) lose_surface(i);
-  if (!is_own(i)) {  // the others know of it that it has converted
+  if (!is_own(i)) {  // remote particle: only its kernel type is stored
     f.phi.at(i) = 1;
     return;
   }

@@ -83,7 +83,7 @@ void doubt_forces(BodyOptions const& o, Options const& all, int dimension, BodyD
     ignore(doubts, {"assumption"}, "the body has three dimensions");
 }
 
-/// Metals whose tension nothing limits, where they flow as Eulerian particles.
+/// Warns of metals without a limit of tension that are Eulerian.
 void doubt_tension(BodyOptions const& o, BodyDoubts& doubts) {
   bool unlimited = false;
   with_solid(doubts.material(), [&](auto const& law) {

@@ -16,7 +16,7 @@ auto with_material(int dimension, F const& f) {
   return dimension == 2 ? f(MaterialRecord<2>{}) : f(MaterialRecord<3>{});
 }
 
-/// Components [first, last) of the records of spatial neighbours: what the correction reads of them, or the rest.
+/// Components [first, last) of the records of spatial neighbours: those that the correction reads, or the rest.
 struct SpatialParts {
   int corrected, all;
 };
@@ -156,7 +156,7 @@ Talk Exchanges::talk(System const& s, SpatialLists const& lists, int body) {
   talk.near->cell = lists.widest();
   talk.near->touching = touching;
   talk.near->flows.assign(s.eulerian + b.first, s.eulerian + b.last);
-  talk.collectives = body == 0 ? 2 : 0;  // failures with bounds, what the step says
+  talk.collectives = body == 0 ? 2 : 0;  // failures with bounds, results of the step
   return talk;
 }
 

@@ -18,8 +18,8 @@ class Exchanges {
   /// system: of a distributed run, with its tables. cuts: partition of each body.
   Exchanges(System const& system, MaterialLists const& lists, std::vector<Shares> cuts, ParticleOrder const& order);
 
-  /// To be called between the parts of a step (Machine), in this order. before_lists() also makes a failure on any rank
-  /// known to all ranks and returns the input of the step's lists.
+  /// To be called between the parts of a step (Machine), in this order. before_lists() also broadcasts a failure of any
+  /// rank and returns the input of the step's lists.
   SpatialLists::Others before_lists(System const& system);
   void after_prediction(System const& system);
   void after_lists(System const& system);

@@ -42,7 +42,7 @@ void search(MovingSearch const& s) { find_neighbours(s); }
 
 }  // namespace
 
-/// The entry by which the host finds this machine.
+/// The entry by which the host finds this instruction set.
 extern Machine const machine;
 Machine const machine{PIOLA_MACHINE_NAME, lane_count, &predict, &deform, &half_state,
                       &correct,           &sweep,     &finish,  &search};

@@ -10,11 +10,11 @@
 namespace piola::adaptle {
 namespace {
 
-/// Below this share of lanes that have the neighbour of an entry, lists are faster.
+/// Below this fraction of lanes with a neighbour at the offset of an entry, lists are faster.
 constexpr double least_fill = 0.6;
 constexpr Index absent = 2147483647;
 
-/// Entries of one group of lanes: offset, distance in memory, bits of the lanes that have it.
+/// Entries of one group of lanes: offset, distance in memory, bits of the lanes with a neighbour.
 using GroupShape = std::vector<std::int32_t>;
 
 /// distance: [offset][lane].
@@ -144,7 +144,7 @@ void LatticeRows::add_pattern(std::span<std::int32_t const> entries, int lanes) 
   patterns_.push_back(pattern);
 }
 
-/// Room for what whole lanes read beyond both ends of the body.
+/// Allocates padding for whole lanes beyond both ends of the body.
 void LatticeRows::allocate(Body const& body, int components) {
   constexpr Index line = 8;
   auto const up = [](Index n) { return (n + line - 1) / line * line; };

@@ -33,7 +33,7 @@ class LatticeRows {
   /// Criterion for lists or patterns: neighbours, and lanes computed for them, over all ranks.
   struct Fill {
     std::int64_t present = 0, all = 0;
-    bool lattice = true;  ///< all neighbours are at known offsets
+    bool lattice = true;  ///< all neighbours are at common offsets
   };
   Fill find_patterns(ParticleSet const& set, ParticleOrder const& order, OfBody const& body,
                      std::span<Offset const> begin, std::span<Index const> neighbour, int lanes);

@@ -18,11 +18,11 @@ struct PairConstants {
         core(0.01 * h * h) {}
 };
 
-/// First sweep: F_a = I + sum_b V0_b (u_b - u_a) (x) G_ab, its rate with the velocities of half time (13), and what
-/// acts between total-Lagrangian particles beside stress. With w = v_b - v_a and x = x_b - x_a:
+/// First sweep: F_a = I + sum_b V0_b (u_b - u_a) (x) G_ab, its rate with the velocities at half time (13), and
+/// the forces between total-Lagrangian particles other than stress. With w = v_b - v_a and x = x_b - x_a:
 ///   viscosity   -V0_a V0_b s rho0 q (r.r + 0.01 h^2)/(x.x + 0.01 h^2) x,   q = (beta mu - alpha c) mu,
 ///               along the line of centres, half its power as heat on each side; as published: in the second sweep
-///   damping     t_ab = zeta rho0 c h V0_a V0_b s (w - dF_a/dt r)/2, which a owns with all its heat, w.t_ab
+///   damping     t_ab = zeta rho0 c h V0_a V0_b s (w - dF_a/dt r)/2, which is a's, with all its heat, w.t_ab
 ///   springs     t_ab = kappa V0_a V0_b s (u_b - u_a - (F_a - I) r)/2, from the energy
 ///               kappa/4 V0_a sum_b V0_b s |x - F_a r|^2: F_a is the best fit in just this measure, so that the energy
 ///               does not change with it; not with the sums as published

@@ -14,7 +14,7 @@ namespace {
 /// A particle in a message: its slot, then its position.
 constexpr std::size_t of_position = 4;
 
-/// How many numbers each rank has, as starts of what complete() takes.
+/// Number of values per rank, as start offsets for complete().
 std::vector<std::size_t> starts_of(std::size_t own) {
   auto const ranks = at(ranks::count());
   std::vector<double> counts(ranks, 0);

@@ -149,12 +149,13 @@ bool yields(MaterialParameters const& material) {
   return can;
 }
 
-/// zeta by default. What may turn Eulerian is damped more: where it fails, noise would part it (record 13).
+/// Default of zeta. Bodies that may become Eulerian are damped more, because noise would tear failing material apart
+/// (record 13).
 double default_hourglass(BodyOptions const& o, bool springs, bool yielding) {
   return springs || (yielding && o.description == Description::total_lagrangian) ? 0.1 : 0.7;
 }
 
-/// springs: material sums have a hourglass stiffness, which materials that do not yield want.
+/// springs: material sums have a hourglass stiffness, which materials without yield need.
 BodyOptions read_body(FormulationSpec const& spec, int dimension, bool springs, bool yielding) {
   springs = springs && !yielding;
   BodyOptions o;
@@ -213,7 +214,7 @@ Settings read_settings(FormulationSpec const& spec, bool yielding) {
   return s;
 }
 
-/// Words and numbers that pairs of different bodies share.
+/// Checks words and numbers that all bodies must have in common.
 void check_alike(Assembly const& assembly, Problems& problems) {
   constexpr std::array<std::string_view, 6> shared{
       "interface", "correction", "viscosity", "viscosity_form", "artificial_stress_interface", "assumption"};

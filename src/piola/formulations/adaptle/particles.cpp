@@ -195,8 +195,8 @@ void Particles::set_contact(Assembly const& assembly) {
                                                                : 0;
 }
 
-/// Memory is taken where somebody writes: what a particle is and whether it lives is known to all ranks, other things
-/// to those that have it, and what neighbours read to them.
+/// Arrays have the length of the whole run; pages are allocated on first write. Every rank writes phi and alive of all
+/// particles; other fields only of its own particles and ghosts.
 void Particles::allocate(Assembly const& assembly) {
   auto const n = static_cast<std::size_t>(assembly.particles.size());
   System& s = system_;
@@ -269,11 +269,11 @@ void Particles::set_reference() {
     for (Index i = own_[b].first; i < own_[b].last; ++i) {
       set_point(i);
       fields_.mass.at(i) = body_[b].rho0 * set_.volume[order_.id(i)];
-      bool const deforms = fields_.holds(fields_.F) && fields_.alive.at(i) > 0;  // what is deleted keeps its own
+      bool const deforms = fields_.holds(fields_.F) && fields_.alive.at(i) > 0;  // deleted particles keep theirs
       for (int c = 0; c < 9 && deforms; ++c) fields_.F.at(i, c) = c % 4 == 0 ? 1 : 0;
     }
   set_point(order_.slot(0));  // where cells of space begin
-  if (s.contact.law == 3)     // what the potential of the printed law asks of both sides
+  if (s.contact.law == 3)     // data of both sides for the potential of the published law
     for (Index i = 0; i < s.particles; ++i) set_point(i);
   if (!lagrangian_ && !material_.built()) return;
   material_.build(set_, order_, body_, own_, fields_, options_.settings, machine_->lanes);
@@ -450,7 +450,7 @@ void Particles::sum_actions(double time, double dt) {
   action_sums_.reset();
 }
 
-/// Sums over neighbours and what they need.
+/// Computes sums over neighbours and their inputs.
 void Particles::sweep(double dt) {
   Stopwatch const watch(seconds_.sweeps);
   BusyWatch const work(balance_.busy());

@@ -83,9 +83,8 @@ class Particles {
   Fields& fields() { return fields_; }
   Fields const& fields() const { return fields_; }
   Books& books() { return books_; }
-  /// Calls f(field) for all fields of a checkpoint; is_saved() tells which slots count. `alive` comes first.
-  /// Deformation follows from positions, except for deleted particles. The reference data of converted particles are
-  /// not needed.
+  /// Calls f(field) for all fields of a checkpoint, `alive` first. Slots count if is_saved(). Deformation follows from
+  /// positions, except for deleted particles. The reference data of converted particles are not needed.
   template <class Set, class F>
   void each_saved(Set& fields, F const& f) const {
     fields.each([&](auto& field) {

@@ -30,8 +30,8 @@ void Particles::take(std::vector<Shares> cuts) {
   exchanges_ = std::make_unique<Exchanges>(system_, material_, std::move(cuts), order_);
 }
 
-/// Relative to a total-Lagrangian particle: processor time of the cubes of `piola bench adaptle`. Of what is deleted
-/// the points are left, of what blends descriptions both.
+/// CPU time relative to a total-Lagrangian particle, from the cubes of `piola bench adaptle`. Deleted particles only
+/// have their point passes; blended ones count for both kernel types.
 double Particles::work_of(Index slot) const {
   constexpr double eulerian = 1.5, corrected = 3.5, points = 0.3;
   if (!(fields_.alive.at(slot) > 0)) return points;
@@ -83,7 +83,7 @@ void Particles::hand_over(std::vector<Shares> const& from, std::vector<Shares> c
   each_saved(fields_, [&](Field& field) {
     if (&field != &fields_.phi && &field != &fields_.alive) fields.push_back(&field);
   });
-  // f(value) of what goes from one rank to another.
+  // Calls f(value) for the values sent from one rank to another.
   auto const each = [&](int giver, int taker, auto const& f) {
     for (std::size_t b = 0; b < from.size(); ++b) {
       Range const had = from[b].of(giver), has = to[b].of(taker);

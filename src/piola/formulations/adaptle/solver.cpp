@@ -173,7 +173,7 @@ void Solver::save(StateWriter& writer) const {
   writer.put("actions", particles_.actions().state());
 }
 
-/// Descriptions are known to all ranks.
+/// Kernel types are replicated.
 void Solver::load(StateReader& reader) {
   Fields& fields = particles_.fields();
   std::vector<Index> const ids = ids_of_own();

@@ -106,7 +106,7 @@ void SpatialLists::make_room(System const& s) {
 
 /// Particles without a list get the zeros after the last result.
 void SpatialLists::place_results(System const& s) {
-  constexpr Index beyond = 16;  // what groups of lanes read after the last particle
+  constexpr Index beyond = 16;  // padding for groups of lanes
   if (result_of_.size() != at(s.particles + beyond)) result_of_ = PartFilled<Index>(at(s.particles + beyond));
   for (int b = 0; b < s.bodies; ++b)
     std::fill(result_of_.begin() + s.part[b].first, result_of_.begin() + s.part[b].last + beyond, grid_.count());

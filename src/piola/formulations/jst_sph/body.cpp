@@ -189,7 +189,7 @@ void JstBody::allocate() {
   fields_.each([&](Field& f) {
     bool const per_slot = &f == &fields_.filter_scale || &f == &fields_.filter_sum;
     bool const shared = state_.regular && f.role() == Role::reference && !per_slot;
-    if (f.size() == 0 && wanted(f)) {  // what neighbours read was placed before; the rest is streamed through
+    if (f.size() == 0 && wanted(f)) {  // neighbour data were placed before; the rest is streamed
       bool const source = &f == &fields_.filter_source_a || &f == &fields_.filter_source_b;
       Index const size = shared ? stored_slots_ : source ? all_slots() : order_.slots();
       if (f.components() > 1)
@@ -256,7 +256,7 @@ void JstBody::mark_images() {
   s.weight = weight_.ref();
 }
 
-/// Memory for what a sweep reads of neighbours: arrays for lattices; records [X, values] for lists.
+/// Memory of the neighbour data of a sweep: arrays for lattices; records [X, values] for lists.
 JstBody::Gathered JstBody::gather(int values) const {
   Gathered g;
   auto const n = static_cast<std::ptrdiff_t>(all_slots());
@@ -483,7 +483,7 @@ void JstBody::deform_to_positions(Machine const& machine) {
     set(state_.u, i, c, JstBody::value(state_.x, i, c));
   });
   Copies const* const copies = state_.u.copies;
-  state_.u.copies = images_.copies({MirrorImages::Kind::position});  // what `u` holds for now
+  state_.u.copies = images_.copies({MirrorImages::Kind::position});  // present content of `u`
   machine.update_deformation(state_);
   state_.u.copies = copies;
   if (mixed) each([&](Index i, int c, double& value) { set(state_.u, i, c, value); });
@@ -507,7 +507,7 @@ std::optional<Cloud> JstBody::cloud(ParticleSet const& set) const {
   return r;
 }
 
-/// Mean lattice spacing [m]: what supports are given in units of.
+/// Mean lattice spacing [m]: unit of the support radii of the options.
 double JstBody::spacing() const {
   double size = 1;
   for (int c = 0; c < D_; ++c) size *= body_.spacing[static_cast<std::size_t>(c)];

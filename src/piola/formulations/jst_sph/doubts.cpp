@@ -8,7 +8,7 @@
 namespace piola::jst_sph {
 namespace {
 
-/// The classical baseline has neither stabilisation nor projection, and steps of its own.
+/// Warnings for the classical baseline, which has neither stabilisation nor projection, and a step limit of its own.
 void doubt_displacement(Assembly const& assembly, BodyDoubts& doubts) {
   for (std::string_view const name : {"eps2_momentum", "eps4_momentum"})
     if (number_of(doubts.spec(), name, 0) > 0)
@@ -53,7 +53,8 @@ void doubt_boundaries(Options const& o, BodyDoubts& doubts) {
     doubts.ignored("angular_momentum_projection", "a body with mirror planes is not projected");
 }
 
-/// Near incompressibility: what locks, grows or rings (docs/theory/jst-sph.md, Limits; jst-sph-filtered.md, 1 and 2).
+/// Warnings for near incompressibility: locking, growth, ringing (docs/theory/jst-sph.md, Limits; jst-sph-filtered.md,
+/// 1 and 2).
 void doubt_incompressible(Options const& o, BodyDoubts& doubts) {
   constexpr double nearly = 0.4501;
   double const ratio = poissons_ratio_of(doubts.material());

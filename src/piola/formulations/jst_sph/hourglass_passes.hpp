@@ -111,10 +111,10 @@ PIOLA_FN Mat<D, Lanes> turned(double const (&spin)[3], Mat<D, Lanes> const& F) {
   return r;
 }
 
-/// What hourglass forces are made of: position and deformation gradient a time tau later, without the rigid motion,
+/// Inputs of hourglass forces: position and deformation gradient a time tau later, without the rigid motion,
 ///   x* = x + tau (v + spin cross (x - centre) + push),   F* = F + tau (GRAD v + spin cross F),
-/// and g. Also the work of the forces of the step's start along the step, for the books, with that of the filtered
-/// pressure q, whose viscous part is booked in the same way.
+/// and g. Also the work of the forces at the step's start along the step, for the energy balance, with that of the
+/// filtered pressure q, whose viscous part is accounted for in the same way.
 template <int D, class Law>
 struct LookAhead {
   Law law;

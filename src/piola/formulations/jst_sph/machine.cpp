@@ -65,7 +65,7 @@ double largest_wave_speed(BodyState& body) {
 
 }  // namespace
 
-/// The entry by which the host finds this machine.
+/// The entry by which the host finds this instruction set.
 extern Machine const machine;
 Machine const machine{
     PIOLA_MACHINE_NAME,    lane_count, &step,           &update_wave_speed, &largest_wave_speed, &update_deformation,

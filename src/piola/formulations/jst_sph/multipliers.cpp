@@ -85,7 +85,7 @@ void Multipliers::find_owners(std::span<HeldDirection const> held) {
 }
 
 void Multipliers::find_weights(std::span<HeldDirection const> held, Cloud const& cloud) {
-  // Rows that share particles should be near each other in the matrix: axis by axis, then along the body.
+  // Rows with common particles should be near each other in the matrix: axis by axis, then along the body.
   std::vector<std::size_t> order(held.size());
   for (std::size_t k = 0; k < held.size(); ++k) order[k] = k;
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -165,7 +165,7 @@ void Multipliers::correct(std::vector<Point> const& v, std::vector<double> const
       for (std::size_t r = 0; r < rows_.size(); ++r) entry -= mode_rows_[r][n] * of_mode[m][r];
     }
   }
-  // A rigid motion that the rows prescribe keeps no momentum of its own: the prescribed values win.
+  // A rigid motion that the rows prescribe has no momentum constraint: the prescribed values take precedence.
   schur.factorise(size_of_mode);
   schur.solve(eta);
   for (std::size_t m = 0; m < most_modes; ++m)

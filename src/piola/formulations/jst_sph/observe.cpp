@@ -12,8 +12,8 @@ namespace {
 
 bool evolves_volume(JstBody const& body) { return jst_sph::evolves_volume(body.options().variables); }
 
-/// Where the volumetric energy is filtered: the pressure that acts; with the biharmonic term, whose total pressure is
-/// the less accurate one, the smooth pressure (kappa / kappa_f) q.
+/// With filtered volumetric energy: the acting pressure; with the biharmonic term, whose total pressure is less
+/// accurate, the smooth pressure (kappa / kappa_f) q.
 template <class Law>
 double observed_pressure(JstBody const& body, Law const& law, Mat<3> const& F, Index i) {
   if constexpr (Law::volumetric_split) {
@@ -62,7 +62,7 @@ double stored_energy(JstBody const& body, Law const& law, Mat<3> const& F, Index
 
 double history(JstBody const& body, Index i, int c) { return JstBody::value(body.state().history, i, c); }
 
-/// A solid in rate form, whose state the last step has left.
+/// State of a solid in rate form after the last step.
 struct SolidState {
   double rho0;
 };
@@ -170,7 +170,7 @@ constexpr std::array<std::string_view, 18> offered{"Displacement",
                                                    "Damage",
                                                    "Temperature",
                                                    "InternalEnergy"};
-constexpr std::size_t of_every_law = 14;  ///< the others are of solids in rate form
+constexpr std::size_t of_every_law = 14;  ///< the others belong to solids in rate form
 
 ObservedParticle motion_of(JstBody const& body, Index i) {
   ObservedParticle p;
@@ -201,7 +201,7 @@ namespace {
 template <class F>
 void observe_each(JstBody const& body, int body_number, std::string_view field, F const& f) {
   Range const own = body.own();
-  if (field == "Displacement" || field == "Position" || field == "Velocity") {  // asked for often, and without stress
+  if (field == "Displacement" || field == "Position" || field == "Velocity") {  // frequently needed, and without stress
     for (Index i = own.first; i < own.last; ++i) f(i, motion_of(body, i));
     return;
   }

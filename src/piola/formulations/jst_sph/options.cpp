@@ -120,7 +120,7 @@ FormulationInfo info() {
 
 namespace {
 
-/// The word given for `name`, or what the scheme takes.
+/// The word given for `name`, or the default of the scheme.
 std::string_view chosen(FormulationSpec const& spec, std::string_view name, std::string_view by_scheme) {
   auto const given = word(spec, name);
   return given == "as_scheme" ? by_scheme : given;
@@ -180,7 +180,7 @@ void check(Options const& o) {
         o.gradient_support, o.laplacian_support));
 }
 
-/// Refuses a volumetric filter for a law whose energy has no volumetric part of its own.
+/// Rejects a volumetric filter for a law whose energy has no volumetric part of its own.
 void check_filter(Options const& o, MaterialParameters const& material) {
   LawInfo const* law = nullptr;
   std::vector<std::string> able;

@@ -23,9 +23,9 @@ namespace {
 class Solver final : public Formulation {
   /// Share of the stability limit that is used: power iterations come from below. Less where little damping forgives.
   static constexpr double margin = 0.85, margin_with_hourglass = 0.7;
-  /// The first step takes this share of the limit and each further one may be longer by `growth`: a violent start, and
-  /// jumps of the step, would shake the modes near the limit and let the energy of a sample rise above that before.
-  /// Near the limit that wobble counts for more, and a scheme with little damping hides less of it.
+  /// The first step takes this fraction of the limit and each further one may be longer by `growth`: a violent start,
+  /// and jumps of the step, would excite the modes near the limit and let the energy of a sample exceed the earlier
+  /// one. Near the limit this fluctuation is larger, and a scheme with little damping hides less of it.
   static constexpr double first_share = 0.05, growth = 1.08, growth_near_limit = 1.02, near_limit = 0.5;
 
  public:
@@ -158,7 +158,7 @@ class Solver final : public Formulation {
   }
 
  private:
-  /// The most by which a step of this share of the limit may be followed.
+  /// The largest growth of the step after one at this fraction of the limit.
   double growth_from(double share) const {
     bool const hourglass =
         std::any_of(bodies_.begin(), bodies_.end(), [](auto const& body) { return body->options().hourglass(); });
@@ -197,7 +197,7 @@ class Solver final : public Formulation {
   double time_ = 0;                                          ///< at the end of the last step [s]
 };
 
-/// The particle that the loops have recorded, else the first whose wave speed is not a number: steps would be none.
+/// The particle that the loops have recorded, else the first whose wave speed is NaN, which would make the step NaN.
 FailureSlot Solver::failure_of(JstBody const& body, double largest_speed) {
   FailureSlot const recorded = *body.state().failure;
   if (recorded.index < body.particles() || !std::isnan(largest_speed)) return recorded;
@@ -237,7 +237,7 @@ std::optional<Failure> Solver::failure() const {
   return std::nullopt;
 }
 
-/// f(name, field) for the evolved state of a body: what a checkpoint must hold.
+/// Calls f(name, field) for the evolved state of a body, i.e. the content of a checkpoint.
 template <class F>
 void Solver::each_evolved(JstBody const& body, std::size_t number, F const& f) const {
   int const D = set_.dimension;
@@ -318,7 +318,7 @@ void Solver::share_failures() {
   bool failed = false;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     FailureSlot& slot = *bodies_[k]->state().failure;
-    if (smooths_volume(bodies_[k]->state().constants)) share_failure(slot);  // others were shared with the forces
+    if (smooths_volume(bodies_[k]->state().constants)) share_failure(slot);  // others are replicated with the forces
     failed = failed || slot.index < bodies_[k]->particles() || std::isnan(largest_speed_[k]);
   }
   if (failed) tell_failures();

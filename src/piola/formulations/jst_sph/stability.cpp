@@ -22,8 +22,8 @@ constexpr int later_rounds = 3;  ///< and from the mode of the last measurement
 constexpr int interval = 50;     ///< steps between measurements: they cost 4 right-hand sides
 constexpr int haste = 10;        ///< or these, when the largest wave speed has changed by `change`
 constexpr double change = 0.2;
-/// A measured frequency counts at least as this share of the one that follows from the wave speed: it may be out of
-/// date within a few steps of a violent deformation.
+/// A measured frequency counts at least as this fraction of the one from the wave speed: it may be out of date within a
+/// few steps of a violent deformation.
 constexpr double trust = 0.65;
 
 /// Values of the fields that a trial step writes, to be put back.
@@ -107,7 +107,8 @@ class Operator {
   /// |K u| / |u| of the last of some power iterations, which leave the dominant mode in u, of the particles of this
   /// rank.
   double dominant(std::vector<double>& u, int rounds) {
-    double const size = 1e-6 * trial_.constants.h_min;  // small against what changes the tangent, large to round-off
+    double const size = 1e-6 * trial_.constants.h_min;  // small relative to changes of the tangent, large relative to
+                                                        // round-off
     Squares squares;
     for (int round = 0; round < rounds; ++round) {
       double const most = largest_on_ranks(body_, u);
@@ -206,7 +207,7 @@ double damping_per_speed(JstBody& body, Machine const& machine) {
   trial.constants.eps2 = 0;
   trial.constants.eps4 = 1;
   trial.constants.exact_speed = false;
-  // A law so soft that its forces vanish beside the stabilisation.
+  // A law so soft that its forces vanish relative to the stabilisation.
   trial.material.law = find_law(LinearElastic::name)->index;
   trial.material.value[0] = k.rho0;
   trial.material.value[1] = almost_no_stress * k.rho0 * k.c_p0 * k.c_p0;
@@ -243,7 +244,7 @@ StabilityMonitor::StabilityMonitor(JstBody& body, Machine const& machine) : body
   }
   double const wave_speed = machine.largest_wave_speed(body.state());
   if (hourglass && is_large_lattice() && is_undeformed())
-    wave_speed_ = wave_speed;  // what was measured at rest is of this state
+    wave_speed_ = wave_speed;  // the measurement at rest belongs to this state
   else
     measure(first_rounds, wave_speed);
   if (!hourglass) frequency_per_speed_ = frequency_ / wave_speed_;
@@ -327,7 +328,7 @@ double StabilityMonitor::step(double wave_speed) const {
   if (body_.options().hourglass())
     return std::min(limit_ / std::max(1.0, wave_speed / wave_speed_),
                     limit_at_rest_ / std::max(1.0, trust * wave_speed / speed_at_rest_));
-  // A wave speed that has fallen says nothing: the largest one may have been elsewhere than the fastest mode.
+  // A lower wave speed does not lower the frequency: the largest one may have been elsewhere than the fastest mode.
   double const measured = frequency_ * std::max(1.0, wave_speed / wave_speed_);
   return largest_step(std::max(measured, trust * frequency_per_speed_ * wave_speed), damping_ * wave_speed);
 }

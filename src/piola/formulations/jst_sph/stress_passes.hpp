@@ -85,7 +85,7 @@ PIOLA_FN Lanes acting_pressure(Constants const& k, View const& volume_ratio, Vie
   return k.kappa_local * (volume_ratio.scalar<Lanes>(i) - 1.0) + q.scalar<Lanes>(i);
 }
 
-/// From the first sums to everything that the second sweep needs of a particle:
+/// From the first sums to the input of the second sweep:
 ///   F_dot_a = (sum_b s (v_b - v_a) (x) r) C_a,  H_dot = F x F_dot,  J_dot = H : F_dot       (33)
 ///   A_a = (V_a / V_kernel) P(F, H, J) C_a                             (12), folded for (29c)
 ///   w_a = L f_a  or  eps4 c_a h^3 V_a L f_a,  f = v, and J where it is stabilised           (37), (38)

@@ -32,7 +32,7 @@ struct CarriedGeometry {
   bool starting;  ///< the increment starts at the undeformed state
 };
 
-/// F^(n+1) = F^n + dt GRAD v^(n+1/2), its wave speed and volume ratio; and what the second Laplacian is applied to,
+/// F^(n+1) = F^n + dt GRAD v^(n+1/2), its wave speed and volume ratio; and the argument of the second Laplacian,
 ///   L v' = L v + spin cross L x,  v' = v + spin cross (x - centre) + push: the motion without its rigid part.
 /// H and J as unknowns follow (1c) and (1d), integrated exactly along the straight way from F^n to F^(n+1):
 ///   H^(n+1) = H^n + 1/2 (F^n + F^(n+1)) x dF,   J^(n+1) = J^n + det F^(n+1) - det F^n.

@@ -93,8 +93,8 @@ void remove_quadratic(Fits<D> const& fits, PartFilled<double>& u) {
   });
 }
 
-/// One step of refinement of the quadratics: what they leave is orthogonal to quadratics to round-off then, however
-/// badly neighbours determine them. Forces at rest vanish to that accuracy.
+/// One step of refinement of the quadratics: their residual is then orthogonal to quadratics to round-off, even for
+/// badly conditioned neighbourhoods. Forces at rest vanish to that accuracy.
 template <int D>
 void refine(Fits<D> const& fits, ProjectionMatrix<D> const& matrix, Closure& closure) {
   constexpr auto values = static_cast<std::size_t>(Quadratic<D>::values);

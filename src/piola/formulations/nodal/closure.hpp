@@ -27,7 +27,7 @@ struct Closure {
   double before = 0;    ///< largest component of the residual without corrections [faces between two particles]
   double residual = 0;  ///< and of corrected gradients, measured
   double steepest = 0;  ///< largest |G_ab| [1/spacing]
-  double rounding = 0;  ///< largest |mu| times |X| times the precision of numbers: what sums of x mu add to a strain
+  double rounding = 0;  ///< largest |mu| times |X| times machine precision: error of a strain by sums of x mu
   bool converged = false;
 
   /// mu_b minus the quadratic about a, along J; p: the monomials of b about a.

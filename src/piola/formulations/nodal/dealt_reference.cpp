@@ -8,7 +8,7 @@
 namespace piola::nodal {
 namespace {
 
-/// Where the particles of one order stand in another one.
+/// Permutation from one order of particles to another.
 class Dealing {
  public:
   Dealing(SlotOrder const& from, SlotOrder const& to) : old_(to.id.size()), new_(to.id.size()) {
@@ -28,7 +28,7 @@ class Dealing {
     auto const k = static_cast<std::size_t>(old);
     return k < new_.size() ? static_cast<Index>(new_[k]) : old;
   }
-  /// As many values per slot as there are; what follows the slots stays.
+  /// Permutes values with a fixed number per slot; values after the slots stay.
   template <class T>
   void deal(PartFilled<T>& values, std::size_t size = 1) const {
     if (values.empty()) return;

@@ -30,7 +30,7 @@ PartFilled<FacePart> vector_parts(LoadedFace<D> const& face, Divergence<D> const
   return parts;
 }
 
-/// Areas of the exact surface: what patches show of themselves along its normals.
+/// Areas of the exact surface: projections of the patches on its normals.
 template <int D>
 PartFilled<FacePart> scalar_parts(LoadedFace<D> const& face, Divergence<D> const& divergence, Point const& area,
                                   std::optional<Point> const& normal) {

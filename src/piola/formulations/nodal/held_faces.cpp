@@ -8,7 +8,7 @@
 namespace piola::nodal {
 namespace {
 
-/// A part smaller than this [spacings^(D-1)] has its particle far from it, and no place of its own.
+/// A place smaller than this [spacings^(D-1)] has its particle far from it, and is merged.
 constexpr double least_part = 0.25;
 
 /// A part of a face while it is added up, in spacings.
@@ -89,7 +89,7 @@ std::vector<HeldPlace> held_faces(SetUp const& from, Fits<D> const& fits, std::v
                                   std::array<double, 3> const& h) {
   std::vector<HeldPlace> places;
   std::map<std::array<double, 3>, std::size_t>
-      known;  // two supports may hold the same part, each in directions of its own
+      known;  // two supports may hold the same place, each of them in its own directions
   for (std::size_t s = 0; s < from.supports.size(); ++s) {
     if (!from.supports[s].on_surface()) continue;
     for (auto const& part : parts_of<D>(from, fits, patches, from.supports[s])) {

@@ -7,7 +7,7 @@
 namespace piola::nodal {
 namespace {
 
-/// The lattice of a body whose particles might fill it.
+/// The candidate lattice of a body.
 LatticeShape shape_of(ParticleSet const& set, Body const& body) {
   LatticeShape shape;
   shape.dimension = set.dimension;

@@ -44,7 +44,7 @@ double largest_change(BodyState& body) {
 
 }  // namespace
 
-/// The entry by which the host finds this machine.
+/// The entry by which the host finds this instruction set.
 extern Machine const machine;
 Machine const machine{PIOLA_MACHINE_NAME, lane_count, &step,    &accelerate, &observe,
                       &largest_change,    &keep,      &restore, &project};

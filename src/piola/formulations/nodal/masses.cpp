@@ -11,14 +11,14 @@
 namespace piola::nodal {
 namespace {
 
-constexpr double reach = 3;  ///< of what a cell hands to its neighbours
+constexpr double reach = 3;  ///< range of the transfers of a cell
 constexpr double smallest_pivot = 1e-10;
-constexpr double restraint = 0.9;  ///< a cell that makes another too light hands out this share of before
+constexpr double restraint = 0.9;  ///< factor on the transfers of a cell that makes a particle too light
 constexpr int most_rounds = 400;
 
 template <int D>
 struct Exchange {
-  Entries rows;  ///< whose pairs are here
+  Entries rows;  ///< with pairs on this rank
   Pairs pairs;
   std::vector<double> handed;  ///< V_a phi_ab, per pair of a
 };
@@ -37,7 +37,7 @@ void cell_monomials(ScaledCell const& cell, double (&T)[Quadratic<D>::terms]) {
   }
 }
 
-/// phi_ab = w p . A^-1 T_a: what gives the cell's moments up to the second, for fields that are exact at a itself.
+/// phi_ab = w p . A^-1 T_a: reproduces the cell's moments up to the second, for fields that are exact at a itself.
 template <int D>
 void hand_over_cell(Points const& X, ScaledCell const& cell, std::size_t a, Exchange<D>& x) {
   constexpr int terms = Quadratic<D>::terms;
@@ -199,7 +199,7 @@ class Restraint {
     return static_cast<std::size_t>(std::lower_bound(first, last, static_cast<Index>(b)) - pairs_.neighbour.begin());
   }
   /// Lowers theta of the cells that draw from the light particles, their own included; returns the particles whose mass
-  /// that changes, in increasing order.
+  /// changes by this, in increasing order.
   std::vector<std::size_t> restrain(std::vector<std::size_t> const& light) {
     std::vector<std::size_t> cells = light;
     for (std::size_t const b : with_those_of_others(light))
@@ -224,7 +224,7 @@ class Restraint {
   PartFilled<ScaledCell> const& cells_;
   double least_;
   Range own_;
-  PartFilled<double> theta_;   ///< the share that a cell still hands out
+  PartFilled<double> theta_;   ///< remaining fraction of the transfers of a cell
   PartFilled<double> marked_;  ///< 1 during an exchange for light particles or restrained cells
   PartFilled<double> mass_;
   std::optional<HaloPlan> halo_;
@@ -263,11 +263,10 @@ class BodyMonomials {
   std::array<double, 3> middle_{}, half_{1, 1, 1};
 };
 
-/// Where cells were restrained the moments of the masses are no longer those of the body. A factor that is quadratic in
-/// space brings them back: m (1 + c.p(X)) with the 1 + D (D + 3) / 2 coefficients that make all moments up to the
-/// second exact. Bodies too thin for one are left as they are, and so are those where it would change a mass by more
-/// than a fifth. Not for lattices: there the moments are off by less, and a stiffness that is too large by as much goes
-/// with them.
+/// Restores the moments of the masses after cells were restrained, by a factor that is quadratic in space: m (1 +
+/// c.p(X)) with the 1 + D (D + 3) / 2 coefficients that make all moments up to the second exact. Bodies too thin for
+/// one are unchanged, and so are those with a mass change above a fifth. Not for lattices: their moments are less
+/// inexact, and a stiffness that is too large by as much compensates them.
 template <int D>
 void match_moments(Points const& X, PartFilled<ScaledCell> const& cells, Range own, bool shared,
                    PartFilled<double>& mass) {

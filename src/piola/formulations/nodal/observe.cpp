@@ -122,7 +122,7 @@ constexpr std::array<std::string_view, 20> offered{"Displacement",
                                                    "Damage",
                                                    "Temperature",
                                                    "InternalEnergy"};
-constexpr std::size_t of_every_law = 16;  ///< the others are of solids in rate form
+constexpr std::size_t of_every_law = 16;  ///< the others belong to solids in rate form
 
 void add_history(NodalBody const& body, Index i, ObservedParticle& p) {
   p.plastic_strain = body.mean_of_points(i, SolidPlaces::plastic_strain);

@@ -63,7 +63,7 @@ FormulationInfo info() {
 
 namespace {
 
-/// Solids in rate form: what they cannot be.
+/// Rejects options that solids in rate form do not support.
 void check_solid(MaterialParameters const& material, bool stress_free, Problems& problems) {
   if (is_explosive(material))
     problems.add({},

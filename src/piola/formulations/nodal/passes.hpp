@@ -7,7 +7,7 @@
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/neighbours/records.hpp"
 
-/// Sweeps and moves of the nodal formulation: what one particle does. Theory and symbols: docs/theory/nodal.md.
+/// Sweeps and moves of the nodal formulation: operations on one particle. Theory and symbols: docs/theory/nodal.md.
 /// Pairs carry r = X_b - X_a in spacings and the weight s.
 namespace piola::nodal::inline PIOLA_MACHINE {
 

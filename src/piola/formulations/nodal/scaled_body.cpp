@@ -37,7 +37,8 @@ ScaledCell completed(ScaledCell cell, std::size_t axis) {
   return cell;
 }
 
-/// The surface of the body without what lies on planes, and of particles on them also the other half.
+/// The surface of the whole body: without patches on planes, and with the mirrored half of patches of particles on
+/// planes.
 std::vector<SurfacePatch> open_surface(std::vector<SurfacePatch> const& all, MirrorImages const& images) {
   std::vector<SurfacePatch> open;
   for (auto const& patch : all)

@@ -19,7 +19,7 @@
 namespace piola::nodal {
 namespace {
 
-/// A cell smaller than this share of a spacing's volume is none.
+/// Smallest volume of a cell, relative to a spacing's volume.
 constexpr double least_cell = 1e-3;
 /// A strain out of rounding. On 501 x 5 particles it is 7e-7, and energy is kept to a thousandth.
 constexpr double most_rounding = 1e-6;
@@ -175,8 +175,8 @@ class Tables {
     }
   }
 
-  /// Whether a particle is on a plane across which one of two components turns and the other does not: what ties them
-  /// together is zero there but for round-off.
+  /// Whether a particle is on a plane that inverts one of two components and not the other: their coupling is zero up
+  /// to round-off.
   bool odd(std::size_t a, int m, int n) const {
     for (int axis = 0; axis < D && from_.images != nullptr; ++axis)
       if (from_.images->on_plane(static_cast<Index>(a), static_cast<std::size_t>(axis)) &&
@@ -266,8 +266,8 @@ Index source_of(SetUp const& from, std::size_t i) {
   return i < particles ? static_cast<Index>(i) : from.images->particles().source[i - particles];
 }
 
-/// The cells with volumes that stand for their masses, in units of the body's own density: what is handed over from
-/// cell to cell is mass, and its moments are those of all materials together. Nothing where there is one material.
+/// Cells with volumes in proportion to their masses, in units of the body's own density: transfers between cells are
+/// masses, with the moments of all materials together. Empty for a single material.
 PartFilled<ScaledCell> heavy_cells(SetUp const& from, PartFilled<ScaledCell> const& light) {
   if (from.rho0.size() == 1) return {};
   PartFilled<ScaledCell> cells = light;

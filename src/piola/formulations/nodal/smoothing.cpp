@@ -10,8 +10,8 @@ namespace piola::nodal {
 namespace {
 
 constexpr double support = 2.4;     ///< in spacings
-constexpr int most_sweeps = 50;     ///< each halves what rows are off by, at least
-constexpr double tolerance = 1e-4;  ///< of the sums of rows; what is left goes to the particle itself
+constexpr int most_sweeps = 50;     ///< each at least halves the error of the rows
+constexpr double tolerance = 1e-4;  ///< for the sums of rows; the rest is assigned to the particle itself
 
 /// Wendland C2 of r in spacings, without its factor.
 double kernel(double r) {

@@ -92,7 +92,7 @@ class SolidCells {
     return (1.0 / points) * sum;
   }
 
-  /// Tension of points over that of their cell by the logarithm of the energy, were it all elastic:
+  /// Elastic estimate of the tension of points over that of their cell, from the logarithmic energy:
   /// kappa_l (1/Jm - 1/J_q) [Pa].
   PIOLA_FN void elastic_spread(Cell const& cell, Lanes (&spread)[points]) const {
     Lanes mean = Lanes(0.0);
@@ -103,9 +103,9 @@ class SolidCells {
     for (int q = 0; q < points; ++q) spread[q] = kappa_local_ * (1.0 / mean - 1.0 / spread[q]);
   }
 
-  /// From the end of the last step to the gradients in `energy`. The energy grows by the mean of the stresses before
-  /// and after, e += mean_q (P_n + P) : (F - F_n) / (2 rho0): the work that the kinetic energy loses in a Verlet step.
-  /// The pressure is that of the mean volume ratio and of this energy; both are found together.
+  /// Advances from the end of the last step to the gradients in `energy`. The energy grows by the mean of the stresses
+  /// before and after, e += mean_q (P_n + P) : (F - F_n) / (2 rho0): the work that the kinetic energy loses in a Verlet
+  /// step. The pressure belongs to the mean volume ratio and to this energy; both are solved for together.
   template <class Energy>
   PIOLA_FN void advance(Index i, Cell& cell, Energy& energy) const {
     Mat<3, Lanes> dF[points], H[points];

@@ -177,7 +177,7 @@ class Solver final : public Formulation, public SetUpChecked {
                        [](auto const& body) { return body->state().failure->index < body->particles(); });
   }
   double calm_time_step() const;
-  /// The least of a step of all bodies, shorter where the tolerance for the energy asks for it [s].
+  /// The smallest step of all bodies, shortened by the energy tolerance [s].
   double least_step(double (StabilityMonitor::*of_body)() const) const {
     double dt = std::numeric_limits<double>::infinity();
     for (auto const& monitor : monitors_) dt = std::min(dt, ((*monitor).*of_body)());
@@ -191,10 +191,10 @@ class Solver final : public Formulation, public SetUpChecked {
   std::vector<std::unique_ptr<NodalBody>> bodies_;
   std::vector<std::unique_ptr<StabilityMonitor>> monitors_;
   ActionsOnBodies actions_;
-  bool pushed_ = false;     ///< by what acts between bodies
-  bool ends_step_ = false;  ///< what pushes next does so for the step that was taken last, after that for the next one
-  double time_ = 0;         ///< at the end of the last step [s]
-  double repeated_ = 0;     ///< steps that were taken again in halves
+  bool pushed_ = false;                    ///< by contact or ties
+  bool ends_step_ = false;                 ///< whether the next push() ends the last step or begins the next one
+  double time_ = 0;                        ///< at the end of the last step [s]
+  double repeated_ = 0;                    ///< steps that were taken again in halves
   std::vector<double> failed_neighbours_;  ///< on ranks, per body: of the particle that failed
 };
 
@@ -273,7 +273,7 @@ std::vector<SetUpCheck> Solver::set_up_checks() const {
   return all;
 }
 
-/// f(name, field, components) for the evolved state of a body: what a checkpoint must hold.
+/// Calls f(name, field, components) for the evolved state of a body, i.e. the content of a checkpoint.
 template <class F>
 void Solver::each_evolved(NodalBody const& body, std::size_t number, F const& f) const {
   int const D = set_.dimension;
@@ -319,7 +319,7 @@ void Solver::load(StateReader& reader) {
   reader.get("time", clock);
   time_ = clock[0];
   repeated_ = clock[1];
-  // Bodies may be pushed before the next step: what is held then.
+  // push() may precede the next step and needs the held directions.
   for (auto const& body : bodies_) body->boundary().begin_step(body->state(), time_, 0);
 }
 

@@ -34,8 +34,8 @@ constexpr double first_share = 0.15;
 /// make the energy drift.
 constexpr int glance = 4;
 constexpr double lasting = 50, calmer = 0.7;
-/// Where a cell is crushed the steps that had to be halved say more than the last measurement: each makes the next ones
-/// shorter, down to a share, and steps that went well make them longer again.
+/// If a cell is crushed, halved steps are a better guide than the last measurement: each shortens the next ones, down
+/// to a fraction, and successful steps lengthen them again.
 constexpr double halved = 0.6, least_caution = 0.2, recovery = 1.004;
 
 /// Reduction payload of a vector and of the energy error indicator.
@@ -209,8 +209,8 @@ bool StabilityMonitor::should_look(double dt) const {
   return dt < step() || pace_ < brisk_pace || std::fmod(steps_, glance) == 0;
 }
 
-/// v.K.v = -sum m v.(da/dt) from the change over the step dt that was just taken, with the velocity of its middle, and
-/// a.M.a of what moves freely.
+/// v.K.v = -sum m v.(da/dt) from the change over the last step dt, with the velocity at its middle, and a.M.a of free
+/// components.
 void StabilityMonitor::look_at_unrest(double dt) {
   auto const& s = body_.state();
   int const D = s.dimension;
@@ -233,7 +233,7 @@ void StabilityMonitor::look_at_unrest(double dt) {
   double const now = 0.125 * (std::abs(of.value(0)) / (dt * dt) + of.value(1) - held);
   unrest_ = std::max(unrest_, now);
   lately_ = std::max(lately_, now);
-  energy_ = std::max(energy_, of.value(2));  // what was at rest at the last measurement may have been hit
+  energy_ = std::max(energy_, of.value(2));  // a body at rest at the last measurement may have been hit
 }
 
 /// From the velocities alone: accelerations have yet to come. `size` [m]: of the trial displacement.
@@ -266,7 +266,7 @@ void StabilityMonitor::measure(int cycles, bool at_start) {
   auto const rest = accelerations();
   body_.state().marks = false;
   auto const spacing = body_.body().spacing;
-  // Small against what changes the tangent, large against round-off.
+  // Small relative to changes of the tangent, large relative to round-off.
   double const size = 1e-6 * *std::min_element(spacing.begin(), spacing.begin() + body_.state().dimension);
   if (at_start) unrest_ = unrest_at_start(x, rest, size);
   for (int k = 0; k < cycles; ++k) {

@@ -10,11 +10,11 @@
 /// The energy of a cell, from a few points of it. Theory: docs/theory/nodal.md, section 2.
 namespace piola::nodal::inline PIOLA_MACHINE {
 
-/// What the points of a cell say of its energy:
+/// Energy of a cell from its points:
 ///   W = mean_q [ Wiso(F_q) + kappa_l ln(Jm / J_q) ] + kappa/2 (Jm - 1)^2,   Jm = mean_q J_q,
 /// for laws whose energy is an isochoric part plus kappa/2 (J - 1)^2. In small strain J = 1 + tr e, and the logarithm
-/// is kappa_l/2 (J_q - Jm)^2. For other laws the mean of W at the gradients (Jm / J_q)^(1/3) F_q takes the place of the
-/// isochoric and the volumetric part, which comes to the same for laws with a split.
+/// is kappa_l/2 (J_q - Jm)^2. For other laws the mean of W at the gradients (Jm / J_q)^(1/3) F_q replaces the
+/// isochoric and the volumetric part, which is equivalent for laws with a split.
 template <class Law, int Points, bool WithEnergy>
 struct CellEnergy {
   Law law;

@@ -18,7 +18,7 @@ struct ViscousHistory {
 
 /// Adds to the stresses of the points
 ///   F_q S_q,  S_q = eta (dE_q - mean dE) / dt,   and   -Q cof F_q,  Q = -linear r + quadratic r^2 if r = dJm/dt < 0,
-/// and what they dissipate: (S + S of the step before) : dE / 2 and the same of Q, as the motion loses it in a step.
+/// and their dissipation: (S + S of the step before) : dE / 2 and the same of Q, as the motion loses it in a step.
 template <int D>
 struct Viscosity {
   using At = ViscousHistory<D>;

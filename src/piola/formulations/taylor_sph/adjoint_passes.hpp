@@ -171,7 +171,7 @@ struct CornerForces {
 };
 
 /// Virtual to real, minus the adjoint of the gradient:  m dv = -dt sum_J force_Ji + dt f_i, then prescribed speeds.
-/// `drift` becomes the mean velocity of the step. Sums the work of what acts from outside, per block.
+/// `drift` becomes the mean velocity of the step. Sums the external work, per block.
 template <int D>
 struct AdvanceVelocities {
   Constants k;
@@ -393,8 +393,8 @@ struct GatherVolumes {
   }
 };
 
-/// Energies of the cells, and what the staggered places of velocity and stress in time take from the sum of energies;
-/// per block: V t:D^-1:t / 2, hourglass energy, V L:D:L of the velocities of now.
+/// Energies of the cells, and the correction for the staggered times of velocity and stress; per block: V t:D^-1:t / 2,
+/// hourglass energy, V L:D:L of the present velocities.
 template <int D, class Law>
 struct CellEnergies {
   Law law;

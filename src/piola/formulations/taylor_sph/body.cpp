@@ -17,7 +17,7 @@ namespace {
 constexpr Index alignment = 16;
 Index aligned(Index n) { return (n + alignment - 1) / alignment * alignment; }
 
-/// Where slots without particles lie: so far away that every kernel vanishes.
+/// Position of slots without particles: so far away that every kernel vanishes.
 constexpr double far_away = 1e20;
 
 }  // namespace
@@ -408,7 +408,7 @@ void TaylorBody::prepare_boundary(double time, double dt, double ahead) {
   state_.items = boundary_.items();
 }
 
-/// Where a particle is when it has drifted on for a time, negative: where it was.
+/// Position of a particle after drifting for a time; negative: its earlier position.
 std::array<double, 3> TaylorBody::place_at(Index i, double ahead) const {
   auto r = x(i);
   for (int c = 0; c < D(); ++c) r[static_cast<std::size_t>(c)] += ahead * drift_.at(slot_of_[at(i)], c);

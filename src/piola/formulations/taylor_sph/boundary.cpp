@@ -14,7 +14,8 @@ namespace {
 using Point = std::array<double, 3>;
 using Stress = std::array<double, 6>;  // SymMat<3>: XX YY ZZ XY YZ XZ
 
-/// Facets whose normals differ by more are two sides that meet in an edge: a polygon's sides at 45 degrees are not.
+/// Facets whose normals differ by more are two sides with an edge between them; a polygon's sides at 45 degrees are
+/// one.
 constexpr double same_side = 0.57;  // cosine of 55 degrees
 
 double length(Point const& a) { return std::sqrt(dot(a, a)); }
@@ -59,7 +60,7 @@ std::vector<Point> free_directions(std::vector<Point> held, int D) {
   std::vector<Point> free;
   for (int c = 0; c < D && held.size() < static_cast<std::size_t>(D); ++c) {
     Point d = axes[c];
-    // An axis that hardly sticks out of what is there would give a direction of round-off.
+    // An axis that is almost in the span of the others would give a direction of round-off.
     Point rest = d;
     for (auto const& h : held)
       for (std::size_t k = 0; k < 3; ++k) rest[k] -= dot(d, h) * h[k];
@@ -286,7 +287,7 @@ void Boundary::load(Index particle, double time, double dt, Stress const& stress
         after -= part * item.after[r];
       }
       double const rest = std::sqrt(std::inner_product(row.begin(), row.end(), row.begin(), 0.0));
-      if (rest < 0.3 * whole || item.rows == n) continue;  // says nothing new
+      if (rest < 0.3 * whole || item.rows == n) continue;  // almost linearly dependent
       for (int c = 0; c < n; ++c) item.row[item.rows][c] = row[static_cast<std::size_t>(c)] / rest;
       item.before[item.rows] = !fresh ? before / rest : mandel_product(item.row[item.rows], stress, D_);
       item.after[item.rows] = after / rest;

@@ -77,7 +77,8 @@ struct CellGradients {
   Lanes volume;  ///< [m^D]
 };
 
-/// Of simplices the linear gradient; of boxes that between the middles of opposite faces, in 2D the diagonals'.
+/// The linear gradient for simplices; for boxes that between the centres of opposite faces, in 2D that of the
+/// diagonals.
 template <int D>
 PIOLA_FN CellGradients<D> cell_gradients(CornerPositions<D> const& corners, bool simplices) {
   Vec<D, Lanes> edge[D];

@@ -61,7 +61,7 @@ CellEnergy cell_energy(BodyState& body) {
 
 }  // namespace
 
-/// The entry by which the host finds this machine.
+/// The entry by which the host finds this instruction set.
 extern Machine const machine;
 Machine const machine{PIOLA_MACHINE_NAME, lane_count, &half_step,    &full_step,  &impose, &filter, &motion,
                       &add_rigid,         &place,     &adjoint_step, &cell_energy};

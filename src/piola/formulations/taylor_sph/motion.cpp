@@ -19,7 +19,7 @@ using Point = std::array<double, 3>;
 constexpr double skin = 0.2;
 constexpr double largest_strain = 0.2;  ///< of squared distances: 10 % in length
 
-/// Cells are rebuilt when the quality of one falls below this fraction of its initial value.
+/// Cells are rebuilt when the quality of one falls below this fraction of its value at construction.
 constexpr double least_quality = 0.3;
 constexpr long least_steps = 10;  ///< between two triangulations
 
@@ -73,7 +73,7 @@ bool is_inside(Point const& p, std::span<Index const> corners, Points const& x, 
   return first > -1e-9;
 }
 
-/// The cells of `all` whose middles lie in one of `cover`, all simplices of the same points.
+/// The cells of `all` whose centres lie in one of `cover`, all simplices of the same points.
 Cells cells_within(Cells const& all, Cells const& cover, Points const& x) {
   auto const middle = [&](Cells const& cells, Index c) {
     Point m{};
@@ -247,9 +247,9 @@ void TaylorBody::turn_boundary(double ahead) {
   boundary_.turn(surface_positions_);
 }
 
-/// Interpolation between two sets of particles keeps no momentum by itself. The rigid motion that makes up for it is
-/// found as for the projections of JST-SPH: momentum and moment of momentum at the end of the step are those of the
-/// start and the impulse of the loads.
+/// Interpolation between two sets of particles does not conserve momentum. The rigid motion that restores it is found
+/// as for the projections of JST-SPH: momentum and moment of momentum at the end of the step are those of the start
+/// plus the impulse of the loads.
 void TaylorBody::conserve_momentum() {
   double now[MotionSums::size];
   machine_->motion(state_, now);
@@ -288,7 +288,7 @@ void TaylorBody::follow_motion() {
   if (measures_.inverted || failure_.index != FailureSlot::none) return;
   try {
     renew_lists();
-  } catch (InputError const& error) {  // what is a slip at the start is a body that came apart later on
+  } catch (InputError const& error) {  // at the start this is an input error, later a body that came apart
     lost_ = {worst_corner(), fmt::format("is in a body whose cells or lists cannot be made anew ({})", error.what())};
   }
 }
@@ -306,8 +306,8 @@ void TaylorBody::renew_lists() {
   measures_ = machine_->place(state_);
 }
 
-/// Delaunay's triangulation of where the particles are now, of it what lies in a cell of before: the cells of before
-/// cover the body, however deformed they are. False if nothing would change.
+/// Delaunay triangulation of the current positions, restricted to the cells before it, which cover the body at any
+/// deformation. False if nothing would change.
 bool TaylorBody::triangulate_anew() {
   constexpr long hasty = 5;  // a triangulation at the earliest possible time counts as this number of lists
   if (triangulations_ > 0 && steps_since_triangulation_ <= least_steps) hasty_updates_ += hasty;

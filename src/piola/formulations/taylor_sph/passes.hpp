@@ -78,7 +78,7 @@ PIOLA_FN Vec<D, Lanes> half_time_place(Constants const& k, Lanes const (&own)[Re
   return x;
 }
 
-/// Virtual to real (22), (23) for particles to whom nothing is prescribed:
+/// Virtual to real (22), (23) for particles without prescribed values:
 ///   v_I^(n+1) = v_I^n + dt ( div sigma^(n+1/2) / rho + b ),   s_I^(n+1) = s_I^n + dt ( D:d - S )^(n+1/2)
 ///   x_I^(n+1) = x_I^n + dt <v^(n+1/2)>_I
 template <int D, class Kernel, class Law>

@@ -29,7 +29,7 @@ Talk TaylorBody::talk() const {
   int const flat = D() == 2 ? 1 : 0, at_rest = moving ? 0 : D(), stride = record_stride(D());
   double const real = static_cast<double>(particles()), cells = static_cast<double>(cells_.count());
   int const of_particle = stride + D() + flat + at_rest;
-  // Where cells are; sums of motion at the start and, if something holds the body, at the end.
+  // Positions of cells; sums of motion at the start and, if the body has supports, at the end.
   int const everywhere = (moving ? 1 : 0) + (free_ ? 1 : 2);
   Talk talk;
   talk.order = [](ParticleSet const& set, Body const& body, int) { return pencil_order(set, body); };

@@ -45,7 +45,7 @@ void check_on_ranks(Body const& body, Options const& options) {
                   body.name, particles, most));
 }
 
-/// Taylor-SPH of one or more bodies, which do not know of each other.
+/// Taylor-SPH of one or more independent bodies.
 class Solver final : public Formulation {
  public:
   explicit Solver(Assembly const& assembly)
@@ -191,7 +191,7 @@ std::optional<Failure> Solver::failure() const {
   return std::nullopt;
 }
 
-/// f(name, values) for what a checkpoint holds of a body.
+/// Calls f(name, values) for the checkpoint data of a body.
 template <class S, class F>
 void each_array(S& snapshot, std::size_t body, F const& f) {
   f(fmt::format("body{}_position", body), snapshot.x);

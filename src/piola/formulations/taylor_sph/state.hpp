@@ -57,7 +57,7 @@ struct BoundaryItem {
   double along[6][3], normal[6][3];
 };
 
-/// Cells, whose centres are the virtual particles, interleaved by lanes as SetPairTable is.
+/// Cells, whose centres are the virtual particles, interleaved by lanes like SetPairTable.
 struct CellTable {
   int corners = 0;
   bool simplices = true;

@@ -7,7 +7,7 @@
 
 namespace piola::inline PIOLA_MACHINE {
 
-/// Pressure that is linear in the density and knows no energy: p = K (rho/rho0 - 1).
+/// Pressure that is linear in the density and independent of energy: p = K (rho/rho0 - 1).
 class ElasticEos {
  public:
   PIOLA_FN explicit ElasticEos(EosValues const& values) : rho0_(values.rho0), kappa_(values.kappa) {}

@@ -11,7 +11,7 @@ namespace piola::inline PIOLA_MACHINE {
 /// Gases of a detonated explosive, by Jones, Wilkins and Lee (E. L. Lee, H. C. Hornig, J. W. Kury, UCRL-50422, 1968).
 /// V = rho0/rho, E = rho0 e energy per volume of the explosive, which starts at the energy of detonation:
 ///   p = A (1 - omega/(R1 V)) exp(-R1 V) + B (1 - omega/(R2 V)) exp(-R2 V) + omega E/V
-/// What has not burnt yet has a share of this pressure (SolidHistory::burnt).
+/// Partly burnt explosive has a fraction of this pressure (SolidHistory::burnt).
 class JwlEos {
  public:
   PIOLA_FN explicit JwlEos(EosValues const& values)

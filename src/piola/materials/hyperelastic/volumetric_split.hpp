@@ -5,10 +5,10 @@
 
 namespace piola::inline PIOLA_MACHINE {
 
-/// Laws whose energy is an isochoric part plus kappa/2 (J - 1)^2 (Lee et al. 2016, Section 2.1). A law gives
-/// `small_strain`, of F, H and J as independent unknowns isochoric_energy(F, H, J), with the pressure given
-/// stress_with_pressure(F, H, J, p), and modulus(a, b, c); the rest follows here. Schemes that take the pressure from
-/// elsewhere (an evolved or filtered J) use the questions directly.
+/// Laws whose energy is an isochoric part plus kappa/2 (J - 1)^2 (Lee et al. 2016, Section 2.1). A law provides
+/// `small_strain`, isochoric_energy(F, H, J) with F, H and J as independent variables, stress_with_pressure(F, H, J, p)
+/// with the pressure given, and modulus(a, b, c); the rest follows here. Schemes with a pressure from elsewhere (an
+/// evolved or filtered J) call these functions directly.
 template <class Law>
 struct VolumetricSplit : ElasticConstants {
   using ElasticConstants::ElasticConstants;

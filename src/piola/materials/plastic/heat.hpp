@@ -16,10 +16,10 @@ struct FlowState {
   double compression = 1;     ///< density over that at rest
 };
 
-/// Adiabatic heating by plastic work, and what Johnson and Cook measure temperature and rate by.
+/// Adiabatic heating by plastic work, and the reference temperatures and rate of Johnson and Cook.
 struct Heat {
   static constexpr int size = 6;
-  /// `always`: the flow stress itself asks for temperature and rate; else only the damage of Johnson and Cook does.
+  /// `always`: the flow stress itself depends on temperature and rate; else only the damage of Johnson and Cook does.
   static constexpr std::array<Parameter, size> parameters_for(bool always) {
     Condition const when = always ? Condition{} : Condition{"damage", "johnson_cook"};
     return {Parameter{"specific_heat", "J/(kg K)", "heat capacity per mass", positive, unbounded, "no heating"},

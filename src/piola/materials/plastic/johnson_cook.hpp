@@ -70,8 +70,8 @@ class JohnsonCook {
   }
 
  private:
-  /// B strain^n, strain = (1 + z) times the one where it is `grown`. Most increments are small beside the strain that
-  /// is there already; then the series of (1 + z)^n has all digits.
+  /// B strain^n, strain = (1 + z) times the one where it is `grown`. Most increments are small relative to the present
+  /// strain; then the series of (1 + z)^n is exact to round-off.
   PIOLA_FN double hardening(double grown, double z, double strain) const {
     if (!(z > 0 && z < 0.01)) return b_ * std::pow(strain, n_);
     double series = 1;

@@ -56,7 +56,7 @@ class JohnsonHolmquist {
     double const P = (pressure + tension_) * per_pressure_;
     return P > 0 ? scale_ * A_ * std::pow(P, N_) * fast(rate) : 0;
   }
-  /// Strength of what is broken [Pa].
+  /// Strength of the fractured material [Pa].
   PIOLA_FN double fractured(double pressure, double rate) const {
     double const P = pressure * per_pressure_;
     if (!(P > 0)) return 0;

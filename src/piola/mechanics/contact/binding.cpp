@@ -12,7 +12,7 @@ namespace {
 
 constexpr double near_enough = 0.5;   // of a spacing: points farther from the planes of the other body are not held
 constexpr double least_share = 0.05;  // points that see less of a face are beyond its rim
-constexpr double looked_at = 2;       // spacings: how far from a rigid shape a point may be said to face it
+constexpr double looked_at = 2;       // spacings: largest distance at which a point counts as facing a rigid shape
 constexpr double opposed = 0.5;       // cosine between the normals of a point and a rigid shape that it lies on
 
 std::size_t index(Index k) { return static_cast<std::size_t>(k); }
@@ -117,7 +117,7 @@ void Ties::bind(std::size_t tie, std::size_t side, Binding const& at) {
   found.left_area += left.value();
 }
 
-/// Holds the points of a body that lie on a rigid shape, with the whole law: the shape has no points of its own.
+/// Ties the points of a body that lie on a rigid shape, with the whole law: the shape has no points of its own.
 void Ties::bind_to_rigid(std::size_t tie, RigidSurface const& rigid, Binding const& at) {
   TieRule const& rule = rules_[tie];
   std::size_t const a = rule.bodies[0];

@@ -6,7 +6,7 @@
 namespace piola::contact {
 namespace {
 
-/// Planes move a little farther than their particles where these turn; this share of the skin leaves room for that.
+/// Rotating planes move a little farther than their particles; this fraction of the skin allows for that.
 constexpr double share_of_skin = 1.0 / 3;
 /// Opposing normals have a negative product; until lists are rebuilt they rotate by no more than this margin allows.
 constexpr double facing = 0.8;

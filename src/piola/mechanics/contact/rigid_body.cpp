@@ -66,7 +66,7 @@ void RigidBody::drift(double h) {
     return;
   }
   Vec<3> const& I = inertia_.moment;
-  if (I[0] == I[1] && I[1] == I[2]) {  // of a ball: every axis is one of its own
+  if (I[0] == I[1] && I[1] == I[2]) {  // for a ball every axis is principal
     turn = of_unit_length(turn_by((h / I[0]) * spin) * turn);
     return;
   }

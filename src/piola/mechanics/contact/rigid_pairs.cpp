@@ -13,7 +13,7 @@ namespace {
 using Kind = RigidSurface::Kind;
 
 constexpr double closing_share = 0.1;  // of a spacing in a step
-constexpr double resolved = 0.05;      // of 1/omega: what two shapes lose or gain in a blow falls with its square
+constexpr double resolved = 0.05;      // of 1/omega: the energy error of an impact falls with its square
 /// Sine of the slope below which the deepest point of the rim of a cylinder's end goes over into its middle.
 constexpr double upright = 0.02;
 

@@ -36,7 +36,7 @@ ChatterDamping const& System::chatter(std::vector<Vec<3>> const& x, std::vector<
   return chatter_;
 }
 
-/// Follows the spring of a point; a new contact starts without one. frame: what turns with the point's surface.
+/// Advances the spring of a point; a new contact starts without stretch. frame: rotates with the point's surface.
 System::Rubbed System::drag(Press const& press, FrictionLaw const& law, Mat<3> const& frame, Vec<3> const& jump,
                             Vec<3> const& n) {
   Stuck const key{press.point, press.with, {}, {}, 0};

@@ -92,7 +92,7 @@ void ShapePoints::face(int across_axis, double side, std::int64_t first, ShapeRa
   for (auto k = u_first; k <= u_last; ++k) {
     bool const whole = u.from_end(k) <= width;
     for (auto m = v_first; m <= v_last; ++m) {
-      if (!whole && m > rim && m < v.intervals - rim) m = v.intervals - rim;  // what is far from edges is left out
+      if (!whole && m > rim && m < v.intervals - rim) m = v.intervals - rim;  // points far from edges are omitted
       if (m > v_last) break;
       ShapePoint p{first + k * (flat ? 1 : v.intervals + 1) + m,
                    {},

@@ -23,7 +23,7 @@ void put_some(std::vector<double>& all, std::size_t n, Holds const& holds, Put c
 
 }  // namespace
 
-/// Sides of points, and what went through what.
+/// Saves entry faces of points, and passages.
 void System::put_sides(std::vector<double>& all) const {
   all.push_back(static_cast<double>(kept_.size()));
   for (Kept const& k : kept_) {

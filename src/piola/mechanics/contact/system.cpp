@@ -127,10 +127,10 @@ void System::add_between(Run const& run, Vec<3> const& f) {
   Vec<3> const moment = cross(planes_[at(run.target)].y, f);
   if (body < run.body) sums_.on_first[{body, run.body}].add(f, moment);
   if (body > run.body)
-    sums_.on_first[{run.body, body}].add(-1.0 * f, -1.0 * moment);  // what a body does to itself is 0
+    sums_.on_first[{run.body, body}].add(-1.0 * f, -1.0 * moment);  // internal forces of a body sum to 0
 }
 
-/// Over the planes of a run with weight: the choice of the other listed planes is arbitrary [1/kg].
+/// Over the planes of a run with weight only, because the list may contain any others [1/kg].
 double System::largest_inverse_mass(Run const& run) const {
   double inverse = 0;
   for (std::size_t s = run.first; s < run.last; ++s)

@@ -12,13 +12,13 @@ Vec<3> place_on(RigidSurface const& shape, Vec<3> const& arm) { return shape.cen
 
 }  // namespace
 
-/// Whether the held point is one of what the tie names first.
+/// Whether the tied point belongs to the object that the tie names first.
 bool Ties::is_of_first(Row const& row) const {
   TieRule const& rule = rules_[row.tie];
   return row.hold.body == rule.bodies[0] && !rule.rigid_first;
 }
 
-/// Jump and traction of a row; writes what belongs to the row alone.
+/// Computes jump and traction of a row; writes only data of the row.
 void Ties::stretch(std::size_t r, Carriers const& carriers, std::vector<Vec<3>> const& x,
                    std::vector<RigidSurface> const& rigids) {
   Row const& row = rows_[r];
@@ -39,7 +39,7 @@ void Ties::stretch(std::size_t r, Carriers const& carriers, std::vector<Vec<3>> 
     if (opening > opened_[r]) opened_[r] = opening;
     bond = cohesive_bond(row.law, pull.jump, n, opened_[r]);
     lost_[r] = row.area * lost_energy(row.law, opened_[r]);
-    if (has_failed(r)) {  // what it stores when it fails under pressure is lost with it
+    if (has_failed(r)) {  // energy stored at failure under pressure is lost with it
       lost_[r] += row.area * bond.energy;
       bond = {};
     }
