@@ -228,7 +228,7 @@ TEST(StrainDriftGuard, WarnsAndStops) {
 // ---- loads that follow their face
 
 /// A run under a following pressure. damping: 20 1/s leave 1 / e of a velocity after 50 ms.
-Outcome run_under_load(std::string const& pressure, std::function<double(double)> const& kinetic, double damping = 20) {
+Outcome run_under_load(Expression const& pressure, std::function<double(double)> const& kinetic, double damping = 20) {
   Script s;
   s.kinetic = kinetic;
   s.work = [=](double t) { return 10 + kinetic(t); };
@@ -239,7 +239,7 @@ Outcome run_under_load(std::string const& pressure, std::function<double(double)
   load.body = of.spec.bodies[0].name;
   load.kind = LoadSpec::Kind::pressure;
   load.follows = true;
-  load.value[0] = Expression(pressure);
+  load.value[0] = pressure;
   TemporaryFolder const folder;
   return run(of, folder / "r");
 }
@@ -247,7 +247,7 @@ Outcome run_under_load(std::string const& pressure, std::function<double(double)
 double fed(double t) { return std::exp(-30 * std::min(t, 0.6)) * std::exp(30 * std::max(t - 0.6, 0.0)); }
 
 TEST(FollowingLoadGuard, NamesTheLoadThatFeedsMotion) {
-  Outcome const o = run_under_load("Y*min(t/0.3, 1)", fed);
+  Outcome const o = run_under_load(Expression("Y*min(t/0.3, 1)"), fed);
   expect_parts(o.all(), {"kinetic energy grew ", " while every load was steady", "did work of ",
                          "load \"push\" follows the face and varies along it"});
   EXPECT_NEAR(o.guards["following_load"]["from_time"].get<double>(), 0.6, 0.06);
@@ -258,10 +258,20 @@ TEST(FollowingLoadGuard, NamesTheLoadThatFeedsMotion) {
 
 TEST(FollowingLoadGuard, LetsLoadsChangeAndVibrationsDecay) {
   auto const silent = [](Outcome const& o) { return o.all().find("every load was steady") == std::string::npos; };
-  EXPECT_TRUE(silent(run_under_load("Y*t", fed)));
-  EXPECT_TRUE(silent(run_under_load("Y", fed, 0))) << "without damping nothing need decay";
+  EXPECT_TRUE(silent(run_under_load(Expression("Y*t"), fed)));
+  EXPECT_TRUE(silent(run_under_load(Expression("Y"), fed, 0))) << "without damping nothing need decay";
   auto const vibration = [](double t) { return std::exp(-40 * t) * std::pow(std::sin(22 * t), 2); };
-  EXPECT_TRUE(silent(run_under_load("Y", vibration)));
+  EXPECT_TRUE(silent(run_under_load(Expression("Y"), vibration)));
+}
+
+TEST(FollowingLoadGuard, CallsNoFunctionOfAProgram) {
+  int calls = 0;
+  Expression const pressure("a function of the program", [&](std::array<double, 3> const& X, double) {
+    ++calls;
+    return X[1];
+  });
+  EXPECT_EQ(run_under_load(pressure, fed).all().find("every load was steady"), std::string::npos);
+  EXPECT_EQ(calls, 0) << "nothing but the formulation evaluates it, and this one does not";
 }
 
 // ---- particles that meet

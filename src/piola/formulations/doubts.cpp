@@ -3,6 +3,8 @@
 #include "piola/base/text.hpp"
 #include "piola/materials/solids.hpp"
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace piola {
 
@@ -37,6 +39,18 @@ void BodyDoubts::ignored(std::string_view name, std::string_view why) {
 void BodyDoubts::add(std::string key, std::string text) {
   found_.push_back(
       {body_, std::move(key), "body " + in_quotes(assembly_.particles.bodies[body_].name) + ": " + std::move(text)});
+}
+
+bool varies_between(std::span<std::int64_t const> particles, Expression const& formula, ParticleSet const& set,
+                    double t) {
+  constexpr double much = 1e-6;
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (std::int64_t const id : particles) {
+    double const value = formula(set.X[static_cast<std::size_t>(id)], t);
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  return most - least > much * std::max(std::abs(least), std::abs(most));
 }
 
 double poissons_ratio_of(MaterialParameters const& material) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/assembly.hpp"
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,6 +42,10 @@ class BodyDoubts {
   std::size_t body_;
   std::vector<Doubt>& found_;
 };
+
+/// Whether a formula differs between particles at time t [s], by more than 1e-6 of its largest size.
+bool varies_between(std::span<std::int64_t const> particles, Expression const& formula, ParticleSet const& set,
+                    double t);
 
 /// Poisson's ratio of a law in the undeformed state, from its bulk and shear moduli.
 double poissons_ratio_of(MaterialParameters const& material);

@@ -47,7 +47,8 @@ void thin_out(std::vector<SurfacePiece>& pieces, double side) {
   std::set<std::array<std::int64_t, 3>> taken;
   std::erase_if(pieces, [&](SurfacePiece const& piece) {
     std::array<std::int64_t, 3> cube{};
-    for (int i = 0; i < 3; ++i) cube[static_cast<std::size_t>(i)] = std::llround(std::floor(piece.X[i] / side));
+    for (int i = 0; i < 3; ++i)
+      cube[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(std::floor(piece.X[i] / side));
     return !taken.insert(cube).second;
   });
 }

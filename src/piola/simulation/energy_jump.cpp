@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/energy_jump.hpp"
 #include "piola/base/text.hpp"
-#include "piola/materials/solids.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,12 +24,6 @@ constexpr double lasting_crossings = 2;
 /// From here on the end of a run is no onset of a load.
 constexpr std::int64_t first_steps = 50;
 
-/// Whether a body has an initial pressure, whose energy no column contains.
-bool starts_under_pressure(CaseSpec const& spec) {
-  return std::any_of(spec.bodies.begin(), spec.bodies.end(),
-                     [](BodySpec const& body) { return body.formulation.formulas.contains("initial_pressure"); });
-}
-
 /// Whether anything but the bodies themselves may bring energy.
 bool may_do_work(CaseSpec const& spec) {
   auto const moves = [](RigidSpec const& rigid) {
@@ -38,26 +31,7 @@ bool may_do_work(CaseSpec const& spec) {
                                         [](Expression const& component) { return component.text() != "0"; });
   };
   return !spec.loads.empty() || std::any_of(spec.rigids.begin(), spec.rigids.end(), moves) ||
-         std::any_of(spec.supports.begin(), spec.supports.end(),
-                     [](SupportSpec const& support) { return support.velocity.has_value(); }) ||
-         starts_under_pressure(spec);
-}
-
-/// Transit time of a pressure wave across the finest spacing [s]; 0 if no law has a wave speed.
-double crossing_time(CaseSpec const& spec, ParticleSet const& particles) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    auto const& spacing = particles.bodies[b].spacing;
-    double const finest = *std::min_element(spacing.begin(), spacing.begin() + particles.dimension);
-    auto const see = [&](MaterialParameters const& material) {
-      with_any_law(material, [&](auto const& law) {
-        if (double const time = finest / law.p_wave_speed(); time > 0) least = std::min(least, time);
-      });
-    };
-    see(spec.bodies[b].material);
-    for (PartSpec const& part : spec.bodies[b].parts) see(part.material);
-  }
-  return std::isfinite(least) ? least : 0;
+         has_driven_support(spec) || starts_under_pressure(spec);
 }
 
 }  // namespace
@@ -69,8 +43,9 @@ EnergyJumpGuard::EnergyJumpGuard(CaseSpec const& spec, ParticleSet const& partic
       limit_(std::max(1.0, spec.run.guards.energy_rise_stop)),
       stop_(spec.run.guards.energy_rise_stop),
       loaded_(may_do_work(spec)),
-      pressed_(starts_under_pressure(spec)),
-      lasting_(lasting_crossings * crossing_time(spec, particles)) {}
+      pressed_(starts_under_pressure(spec)) {
+  if (double const time = crossing_time(spec, particles); std::isfinite(time)) lasting_ = lasting_crossings * time;
+}
 
 bool EnergyJumpGuard::is_strange(Formulation const& formulation, Moment const& moment) const {
   if (moment.step == 0 || rises_ > 0) return true;

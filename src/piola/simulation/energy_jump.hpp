@@ -39,7 +39,7 @@ class EnergyJumpGuard {
   double stop_;           ///< run.guards.energy_rise_stop
   bool loaded_;           ///< loads, driven supports or rigid shapes may do work
   bool pressed_;          ///< an initial pressure supplies kinetic energy
-  double lasting_;        ///< minimum duration of a jump in a loaded run [s]
+  double lasting_ = 0;    ///< minimum duration of a jump in a loaded run [s]
   double lowest_ = std::numeric_limits<double>::infinity(), lowest_time_ = 0, lowest_step_ = 0;
   double kinetic_ = 0;                                         ///< largest kinetic energy before any jump [J]
   double known_ = 0;                                           ///< largest energy at the last check [J]

@@ -122,6 +122,33 @@ std::optional<double> column_of(Diagnostics const& diagnostics, std::string_view
   return std::nullopt;
 }
 
+bool starts_under_pressure(CaseSpec const& spec) {
+  return std::any_of(spec.bodies.begin(), spec.bodies.end(),
+                     [](BodySpec const& body) { return body.formulation.formulas.contains("initial_pressure"); });
+}
+
+bool has_driven_support(CaseSpec const& spec) {
+  return std::any_of(spec.supports.begin(), spec.supports.end(),
+                     [](SupportSpec const& support) { return support.velocity.has_value(); });
+}
+
+double crossing_time(CaseSpec const& spec, ParticleSet const& particles, std::vector<double> const& speed) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
+    auto const& spacing = particles.bodies[b].spacing;
+    double const finest = *std::min_element(spacing.begin(), spacing.begin() + particles.dimension);
+    double const motion = speed.empty() ? 0 : speed[b];
+    auto const see = [&](MaterialParameters const& material) {
+      with_any_law(material, [&](auto const& law) {
+        if (double const time = finest / (law.p_wave_speed() + motion); time > 0) least = std::min(least, time);
+      });
+    };
+    see(spec.bodies[b].material);
+    for (PartSpec const& part : spec.bodies[b].parts) see(part.material);
+  }
+  return least;
+}
+
 Guards make_guards(CaseSpec const& spec, ParticleSet const& particles) {
   GuardLimits const& limits = spec.run.guards;
   Guards guards;

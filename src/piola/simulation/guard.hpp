@@ -85,6 +85,14 @@ double energy_without_work(Diagnostics const& diagnostics);
 /// The value of a column that only some formulations have.
 std::optional<double> column_of(Diagnostics const& diagnostics, std::string_view name);
 
+/// Whether a body has an initial pressure, whose energy no column contains.
+bool starts_under_pressure(CaseSpec const& spec);
+/// Whether a support prescribes a velocity.
+bool has_driven_support(CaseSpec const& spec);
+/// Least transit time of a pressure wave across the spacing of a body [s]; infinity if no law has a wave speed. speed:
+/// of the motion, added to that of the waves, per body [m/s]; empty: 0.
+double crossing_time(CaseSpec const& spec, ParticleSet const& particles, std::vector<double> const& speed = {});
+
 using Guards = std::vector<std::unique_ptr<Guard>>;
 /// The guards of a run, in the order of their reports.
 Guards make_guards(CaseSpec const& spec, ParticleSet const& particles);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
+#include "piola/formulations/doubts.hpp"
+#include "piola/input/case_facts.hpp"
+#include "piola/input/check_case.hpp"
 #include "piola/simulation/guard.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 namespace piola {
 namespace {
@@ -18,29 +20,26 @@ constexpr double growth = 2;
 constexpr double least_share = 1e-9;
 constexpr double same = 1e-9;  ///< relative change of a steady load
 
-/// Whether a pressure follows its face and differs between particles of its body: such a load is not conservative.
-bool feeds_motion(LoadSpec const& load, ParticleSet const& particles, Body const& body, double time) {
+/// Whether a pressure follows its face and varies along it: such a load is not conservative.
+bool feeds_motion(LoadSpec const& load, ParticleSet const& particles, double time) {
   if (!load.follows || load.kind != LoadSpec::Kind::pressure) return false;
-  double least = std::numeric_limits<double>::infinity(), most = -least;
-  for (std::int64_t id = body.first; id < body.last; ++id) {
-    double const p = load.value[0](particles.X[static_cast<std::size_t>(id)], time);
-    least = std::min(least, p);
-    most = std::max(most, p);
-  }
-  return most - least > 1e-6 * std::max(std::abs(least), std::abs(most));
+  auto const ids = loaded_particles(particles, *body_named(particles, load.body), load);
+  return varies_between(ids, load.value[0], particles, time);
 }
+
+/// Whether the values of a load may be evaluated at any time (see is_formula()).
+bool has_formulas(LoadSpec const& load) { return std::all_of(load.value.begin(), load.value.end(), is_formula); }
 
 /// Motion that grows although damping takes energy and every load is steady: a pressure that follows its face and
 /// varies along it feeds it (docs/theory/nodal.md, section 6). Judges runs with `run.damping` only, because without it
-/// a vibration need not decay.
+/// a vibration need not decay, and loads that are formulas.
 class FollowingLoadGuard : public Guard {
  public:
   FollowingLoadGuard(CaseSpec const& spec, ParticleSet const& particles) : spec_(spec), particles_(particles) {
-    bool const driven = std::any_of(spec.supports.begin(), spec.supports.end(),
-                                    [](SupportSpec const& support) { return support.velocity.has_value(); });
     bool const follows =
         std::any_of(spec.loads.begin(), spec.loads.end(), [](LoadSpec const& load) { return load.follows; });
-    judges_ = spec.run.damping > 0 && follows && !driven;
+    bool const known = std::all_of(spec.loads.begin(), spec.loads.end(), has_formulas);
+    judges_ = spec.run.damping > 0 && follows && known && !has_driven_support(spec);
   }
 
   void look(Look const& look) override {
@@ -102,16 +101,11 @@ class FollowingLoadGuard : public Guard {
   }
 
  private:
-  Body const& body_of(LoadSpec const& load) const {
-    return *std::find_if(particles_.bodies.begin(), particles_.bodies.end(),
-                         [&](Body const& body) { return body.name == load.body; });
-  }
-
   /// Whether no load has changed since the time of the window's begin, at the first, middle and last particle.
   bool steady(double time) const {
     for (LoadSpec const& load : spec_.loads) {
       if ((m_.begun <= load.until) != (time <= load.until)) return false;
-      Body const& body = body_of(load);
+      Body const& body = *body_named(particles_, load.body);
       for (std::int64_t const id : {body.first, (body.first + body.last) / 2, body.last - 1})
         for (Expression const& value : load.value) {
           auto const& X = particles_.X[static_cast<std::size_t>(id)];
@@ -126,7 +120,7 @@ class FollowingLoadGuard : public Guard {
   std::string names(double time) const {
     std::string text;
     for (LoadSpec const& load : spec_.loads)
-      if (feeds_motion(load, particles_, body_of(load), time))
+      if (feeds_motion(load, particles_, time))
         text += (text.empty() ? "" : " and ") +
                 (load.name.empty() ? "the load of body " + in_quotes(load.body) : "load " + in_quotes(load.name));
     return text.empty() ? "a pressure" : text;

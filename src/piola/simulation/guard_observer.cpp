@@ -26,8 +26,7 @@ GuardObserver::GuardObserver(Results results, double mass, HistoryObserver const
       jump_(results_.spec, results_.particles, scale_) {
   if (results_.spec.run.guards.on) guards_ = make_guards(results_.spec, results_.particles);
   told_.assign(guards_.size(), 0);
-  for (BodySpec const& body : results_.spec.bodies)
-    kicked_ = kicked_ || body.formulation.formulas.contains("initial_pressure");
+  kicked_ = starts_under_pressure(results_.spec);
 }
 
 void GuardObserver::see(Formulation const& formulation, Moment const& moment) {

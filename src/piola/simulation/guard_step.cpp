@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
-#include "piola/materials/solids.hpp"
 #include "piola/simulation/guard.hpp"
 #include <algorithm>
 #include <cmath>
@@ -29,20 +28,10 @@ double speed_at_start(BodySpec const& spec, ParticleSet const& particles, Body c
 /// has a wave speed.
 double step_of_waves(CaseSpec const& spec, ParticleSet const& particles) {
   constexpr double usual_cfl = 0.3;
-  double step = std::numeric_limits<double>::infinity();
-  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    auto const& spacing = particles.bodies[b].spacing;
-    double const least = *std::min_element(spacing.begin(), spacing.begin() + particles.dimension);
-    double const speed = speed_at_start(spec.bodies[b], particles, particles.bodies[b]);
-    auto const see = [&](MaterialParameters const& material) {
-      with_any_law(material, [&](auto const& law) {
-        if (double const own = least / (law.p_wave_speed() + speed); own > 0) step = std::min(step, own);
-      });
-    };
-    see(spec.bodies[b].material);
-    for (PartSpec const& part : spec.bodies[b].parts) see(part.material);
-  }
-  return (std::isnan(spec.run.cfl) ? usual_cfl : spec.run.cfl) * step;
+  std::vector<double> speed;
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b)
+    speed.push_back(speed_at_start(spec.bodies[b], particles, particles.bodies[b]));
+  return (std::isnan(spec.run.cfl) ? usual_cfl : spec.run.cfl) * crossing_time(spec, particles, speed);
 }
 
 /// The step as a fraction of the one that waves at rest allow. Impact and fracture shorten it by 100 at most; below a

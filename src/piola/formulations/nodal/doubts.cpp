@@ -3,9 +3,9 @@
 #include "piola/formulations/nodal/solver.hpp"
 #include "piola/materials/solids.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 namespace piola::nodal {
 namespace {
@@ -23,17 +23,9 @@ void doubt_damage(std::vector<MaterialParameters> const& materials, BodyDoubts& 
 
 /// Whether a pressure differs along its face at any of a few times.
 bool varies(Load const& load, ParticleSet const& particles) {
-  constexpr double much = 1e-6;
-  for (double const t : {0.0, 1e-6, 1e-3, 1.0, 1e3}) {
-    double least = std::numeric_limits<double>::infinity(), most = -least;
-    for (std::int64_t const id : load.particles) {
-      double const p = load.value[0](particles.X[static_cast<std::size_t>(id)], t);
-      least = std::min(least, p);
-      most = std::max(most, p);
-    }
-    if (most - least > much * std::max(std::abs(least), std::abs(most))) return true;
-  }
-  return false;
+  constexpr std::array times{0.0, 1e-6, 1e-3, 1.0, 1e3};  // s
+  return std::any_of(times.begin(), times.end(),
+                     [&](double t) { return varies_between(load.particles, load.value[0], particles, t); });
 }
 
 /// A pressure that follows its face and varies along it is no conservative load: it can feed short waves of the face
