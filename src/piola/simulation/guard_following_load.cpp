@@ -30,9 +30,9 @@ bool feeds_motion(LoadSpec const& load, ParticleSet const& particles, double tim
 /// Whether the values of a load may be evaluated at any time (see is_formula()).
 bool has_formulas(LoadSpec const& load) { return std::all_of(load.value.begin(), load.value.end(), is_formula); }
 
-/// Motion that grows although damping takes energy and every load is steady: a pressure that follows its face and
-/// varies along it feeds it (docs/theory/nodal.md, section 6). Judges runs with `run.damping` only, because without it
-/// a vibration need not decay, and loads that are formulas.
+/// Watches for kinetic energy that grows although damping takes energy and every load is steady. A pressure that
+/// follows its face and varies along the face feeds such motion (docs/theory/nodal.md, section 6). The guard judges
+/// runs with `run.damping` only, because a vibration need not decay without damping, and loads that are formulas.
 class FollowingLoadGuard : public Guard {
  public:
   FollowingLoadGuard(CaseSpec const& spec, ParticleSet const& particles) : spec_(spec), particles_(particles) {
@@ -46,7 +46,7 @@ class FollowingLoadGuard : public Guard {
     if (!judges_) return;
     double const time = look.moment.time, kinetic = look.now.kinetic_energy;
     if (!steady(time)) {
-      m_ = {.begun = time, .told = m_.told, .times = m_.times, .since = m_.since, .work = m_.work};
+      m_ = {.begun = time, .reported = m_.reported, .times = m_.times, .since = m_.since, .work = m_.work};
       return;
     }
     if (!(kinetic <= m_.most)) m_.most = kinetic;
@@ -62,7 +62,7 @@ class FollowingLoadGuard : public Guard {
     }
     double const work = look.now.external_work - m_.first_work;
     if (m_.rises >= growing_windows && work > 0) {
-      m_.told = time;
+      m_.reported = time;
       m_.times = m_.most / m_.first;
       m_.since = m_.first_time;
       m_.work = work;
@@ -75,7 +75,7 @@ class FollowingLoadGuard : public Guard {
   std::optional<GuardNumbers> numbers() const override {
     if (!judges_) return std::nullopt;
     return GuardNumbers{"following_load",
-                        {{"growth", m_.times}, {"work", m_.work}, {"from_time", m_.since}, {"to_time", m_.told}},
+                        {{"growth", m_.times}, {"work", m_.work}, {"from_time", m_.since}, {"to_time", m_.reported}},
                         words()};
   }
 
@@ -85,13 +85,13 @@ class FollowingLoadGuard : public Guard {
         "kinetic energy grew {:.2g} times from t = {:.6g} s to t = {:.6g} s while every load was steady, and the loads "
         "did work of {}: {} follows the face and varies along it, which is not conservative and feeds short waves - "
         "give the body fluctuation_viscosity = 0.05, or load it otherwise",
-        m_.times, m_.since, m_.told, quantity_text(m_.work, "J"), names(m_.told));
+        m_.times, m_.since, m_.reported, quantity_text(m_.work, "J"), names(m_.reported));
   }
 
   void save(StateWriter& writer) const override {
     if (judges_)
       writer.put("guard_following_load", std::array{m_.begun, m_.most, m_.before, m_.rises, m_.first, m_.first_time,
-                                                    m_.first_work, m_.told, m_.times, m_.since, m_.work});
+                                                    m_.first_work, m_.reported, m_.times, m_.since, m_.work});
   }
   void load(NamedState& reader) override {
     if (!judges_ || !reader.has("guard_following_load")) return;
@@ -101,7 +101,7 @@ class FollowingLoadGuard : public Guard {
   }
 
  private:
-  /// Whether no load has changed since the time of the window's begin, at the first, middle and last particle.
+  /// Whether every load has the values of the begin of the window at the first, middle and last particle of its body.
   bool steady(double time) const {
     for (LoadSpec const& load : spec_.loads) {
       if ((m_.begun <= load.until) != (time <= load.until)) return false;
@@ -128,11 +128,11 @@ class FollowingLoadGuard : public Guard {
 
   /// Energies and work [J], times [s].
   struct Memory {
-    double begun = 0, most = 0;                        ///< of the present window: its begin, maximum so far
-    double before = 0;                                 ///< maximum of the window before
-    double rises = 0;                                  ///< windows in a row that grew
-    double first = 0, first_time = 0, first_work = 0;  ///< of the last window that did not grow
-    double told = 0, times = 0, since = 0, work = 0;   ///< reported values; times 0: none
+    double begun = 0, most = 0;                           ///< present window: begin, maximum of kinetic energy so far
+    double before = 0;                                    ///< maximum of the previous window
+    double rises = 0;                                     ///< number of consecutive windows with growth
+    double first = 0, first_time = 0, first_work = 0;     ///< maximum, end and work of the last window without growth
+    double reported = 0, times = 0, since = 0, work = 0;  ///< end, growth, begin, work of the message; times 0: none
   };
   CaseSpec const& spec_;
   ParticleSet const& particles_;
