@@ -14,13 +14,13 @@ void CaseOptions::add_to(CLI::App& command, bool with_file) {
   command.add_option(
       "--threads", threads,
       "Number of threads (default: as the case says, else OMP_NUM_THREADS, SLURM_CPUS_PER_TASK or all cores)");
-  command.add_option("--machine", machine, "Instruction set: auto, scalar, v3, v4 (default: as the case says)");
+  command.add_option("--machine", backend, "Instruction set: auto, scalar, v3, v4 (default: as the case says)");
 }
 
 std::vector<std::string> CaseOptions::overrides() const {
   std::vector<std::string> all = set;
   if (!threads.empty()) all.push_back("run.threads=" + threads);
-  if (!machine.empty()) all.push_back("run.machine=" + machine);
+  if (!backend.empty()) all.push_back("run.machine=" + backend);
   return all;
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/base/problems.hpp"
-#include "piola/simulation/bench.hpp"
-#include "piola/simulation/bench_accuracy.hpp"
-#include "piola/simulation/bench_adaptle.hpp"
-#include "piola/simulation/bench_contact.hpp"
-#include "piola/simulation/bench_nodal.hpp"
-#include "piola/simulation/bench_taylor.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/bench/bench.hpp"
+#include "piola/bench/bench_accuracy.hpp"
+#include "piola/bench/bench_adaptle.hpp"
+#include "piola/bench/bench_contact.hpp"
+#include "piola/bench/bench_nodal.hpp"
+#include "piola/bench/bench_taylor.hpp"
 #include "commands.hpp"
 #include "streams.hpp"
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace piola::app {
 namespace {
 
 struct BenchArguments {
-  std::string formulation = "jst_sph", machine = "auto";
+  std::string formulation = "jst_sph", backend = "auto";
   std::vector<std::string> parts;
   std::vector<int> threads{1, 2};
   int side = 0, repeats = 8;  ///< side 0: that of the benchmark
@@ -44,7 +44,7 @@ void refuse_parts_beside(BenchArguments const& options, std::vector<std::string>
 
 int bench_jst(BenchArguments const& options) {
   BenchOptions bench;
-  bench.machine = options.machine;
+  bench.backend = options.backend;
   bench.threads = options.threads;
   bench.repeats = options.quick ? 3 : options.repeats;
   if (options.quick) {
@@ -70,7 +70,7 @@ void refuse_parts(BenchArguments const& options) {
 int bench_taylor(BenchArguments const& options) {
   refuse_parts(options);
   TaylorBenchOptions bench;
-  bench.machine = options.machine;
+  bench.backend = options.backend;
   bench.threads = options.threads;
   bench.repeats = options.quick ? 3 : options.repeats;
   if (options.quick) {
@@ -86,7 +86,7 @@ int bench_taylor(BenchArguments const& options) {
 int bench_impact(BenchArguments const& options) {
   refuse_parts(options);
   AdaptleBenchOptions bench;
-  bench.machine = options.machine;
+  bench.backend = options.backend;
   bench.threads = options.threads;
   bench.repeats = options.quick ? 3 : options.repeats;
   if (options.quick) bench.cube_side = 20;
@@ -99,7 +99,7 @@ int bench_columns(BenchArguments const& options) {
     throw InputError(
         "--only: accuracy compares formulations and stands alone - measure the other parts in a second run");
   AccuracyOptions bench;
-  bench.machine = options.machine;
+  bench.backend = options.backend;
   if (options.quick) bench.across = {3, 5};
   return print(bench_accuracy(bench), options.json);
 }
@@ -107,7 +107,7 @@ int bench_columns(BenchArguments const& options) {
 int bench_of_nodal(BenchArguments const& options) {
   refuse_parts_beside(options, {"rates", "set-up"});
   NodalBenchOptions bench;
-  bench.machine = options.machine;
+  bench.backend = options.backend;
   bench.threads = options.threads;
   bench.repeats = options.quick ? 3 : options.repeats;
   if (options.quick) bench.cube_side = 24;
@@ -120,7 +120,7 @@ int bench_of_nodal(BenchArguments const& options) {
 int bench_of_contact(BenchArguments const& options) {
   refuse_parts(options);
   ContactBenchOptions bench;
-  bench.machine = options.machine;
+  bench.backend = options.backend;
   bench.repeats = options.quick ? 3 : options.repeats;
   if (options.quick) bench.cube_side = 20;
   if (options.side > 0) bench.cube_side = options.side;
@@ -165,7 +165,7 @@ void add_bench(CLI::App& program, Action& action) {
   command->add_option("--repeats", options->repeats, "Time steps per measurement, the fastest counts (default 8)")
       ->check(CLI::Range(1, 1000));
   command->add_option("--threads", options->threads, "Numbers of threads (default 1 2)")->check(CLI::Range(1, 1024));
-  command->add_option("--machine", options->machine, "Instruction set beside the scalar path (default auto)");
+  command->add_option("--machine", options->backend, "Instruction set beside the scalar path (default auto)");
   command->callback([options, &action] { action = [options] { return bench(*options); }; });
 }
 

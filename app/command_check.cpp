@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
-#include "piola/input/case_facts.hpp"
+#include "piola/estimates/case_plan.hpp"
+#include "piola/input/body_properties.hpp"
 #include "piola/input/check_case.hpp"
-#include "piola/input/formulations_of.hpp"
+#include "piola/input/contact_capabilities.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/input/region_checks.hpp"
-#include "piola/particles/parts.hpp"
-#include "piola/simulation/case_plan.hpp"
+#include "piola/particles/part_properties.hpp"
 #include "commands.hpp"
 #include "cost_report.hpp"
 #include "ranks_report.hpp"
@@ -51,7 +51,7 @@ std::string settings_text(FormulationSpec const& spec) {
   return given.empty() ? "" : " (" + joined(given) + ")";
 }
 
-std::string arrangement_text(ShapeSpec const& shape, BodyFacts const& facts) {
+std::string arrangement_text(ShapeSpec const& shape, BodyProperties const& facts) {
   using enum ShapeSpec::Arrangement;
   if (shape.kind == ShapeSpec::Kind::points) return "from " + shape.files.front().given;
   if (shape.arrangement == packed) return "packed";
@@ -82,10 +82,10 @@ Body const& body_named(ParticleSet const& particles, std::string const& name) {
 }
 
 void say_parts(BodySpec const& body, ParticleSet const& particles) {
-  auto const shares = part_facts(particles, body_named(particles, body.name), body.parts.size());
+  auto const shares = part_properties(particles, body_named(particles, body.name), body.parts.size());
   for (std::size_t k = 0; k < body.parts.size(); ++k)
-    say("  part \"{}\": {} particles of {}\n", body.parts[k].name, count_text(shares[k + 1].particles),
-        material_text(body.parts[k].law, body.parts[k].material));
+    print_result("  part \"{}\": {} particles of {}\n", body.parts[k].name, count_text(shares[k + 1].particles),
+                 material_text(body.parts[k].law, body.parts[k].material));
 }
 
 /// How much of the bodies a region holds.
@@ -97,24 +97,25 @@ void say_region(RegionSpec const& region, ParticleSet const& particles) {
       count += region.holds(particles.X[static_cast<std::size_t>(id)]) != 0 ? 1 : 0;
     if (count > 0) held.push_back(fmt::format("{} particles of \"{}\"", count_text(count), body.name));
   }
-  say("region \"{}\": {}\n", region.name, held.empty() ? "holds no particle" : joined(held));
+  print_result("region \"{}\": {}\n", region.name, held.empty() ? "holds no particle" : joined(held));
 }
 
-void print_body(BodySpec const& body, BodyFacts const& facts, ParticleSet const& particles) {
+void print_body(BodySpec const& body, BodyProperties const& facts, ParticleSet const& particles) {
   constexpr std::array<std::string_view, 5> kinds{"box", "sphere", "cylinder", "solid", "cloud"};
   int const dimension = body.shape.dimension;
   std::string_view const mass_unit = dimension == 3 ? "kg" : dimension == 2 ? "kg/m" : "kg/m^2";
-  say("body \"{}\": {}{} of {} particles ({}, spacing {})\n", body.name, body.shape.inner_radius > 0 ? "hollow " : "",
-      kinds[static_cast<std::size_t>(body.shape.kind)], count_text(facts.particles),
-      arrangement_text(body.shape, facts), spacing_text(facts.spacing, dimension));
-  say_solid(body.shape, particles, body_named(particles, body.name));
-  for (std::string const& note : body.shape.notes) say("  note: {}\n", note);
-  say("  {}\n", material_text(body.law, body.material));
+  print_result("body \"{}\": {}{} of {} particles ({}, spacing {})\n", body.name,
+               body.shape.inner_radius > 0 ? "hollow " : "", kinds[static_cast<std::size_t>(body.shape.kind)],
+               count_text(facts.particles), arrangement_text(body.shape, facts),
+               spacing_text(facts.spacing, dimension));
+  print_solid_report(body.shape, particles, body_named(particles, body.name));
+  for (std::string const& note : body.shape.notes) print_result("  note: {}\n", note);
+  print_result("  {}\n", material_text(body.law, body.material));
   say_parts(body, particles);
-  say("  mass {} {}; pressure waves {:.4g} m/s", number_text(facts.mass, 4), mass_unit, facts.p_wave);
-  if (facts.s_wave > 0) say(", shear waves {:.4g} m/s", facts.s_wave);
-  say("; initial speed up to {:.4g} m/s\n", facts.largest_speed);
-  say("  {}{}\n", body.formulation.name, settings_text(body.formulation));
+  print_result("  mass {} {}; pressure waves {:.4g} m/s", number_text(facts.mass, 4), mass_unit, facts.p_wave);
+  if (facts.s_wave > 0) print_result(", shear waves {:.4g} m/s", facts.s_wave);
+  print_result("; initial speed up to {:.4g} m/s\n", facts.largest_speed);
+  print_result("  {}{}\n", body.formulation.name, settings_text(body.formulation));
 }
 
 std::string vector_text(std::array<Expression, 3> const& formulas, int dimension) {
@@ -154,8 +155,8 @@ std::string object_text(CaseSpec const& spec, SupportSpec const& support, Partic
 
 void print_supports(CaseSpec const& spec, ParticleSet const& particles) {
   for (SupportSpec const& support : spec.supports)
-    say("support of \"{}\": {}, {}{}\n", support.body, object_text(spec, support, particles),
-        held_text(support, particles.dimension), until_text(support.until));
+    print_result("support of \"{}\": {}, {}{}\n", support.body, object_text(spec, support, particles),
+                 held_text(support, particles.dimension), until_text(support.until));
 }
 
 void print_loads(CaseSpec const& spec, ParticleSet const& particles) {
@@ -169,14 +170,15 @@ void print_loads(CaseSpec const& spec, ParticleSet const& particles) {
                                        face_text(load.shape, load.face)
                                  : "";
     bool const pressure = load.kind == LoadSpec::Kind::pressure;
-    say("load on \"{}\": {} particles{}, {} {} {}{}\n", load.body, count_text(static_cast<std::int64_t>(count)), face,
-        kinds[kind], pressure ? load.value[0].text() : vector_text(load.value, particles.dimension), units[kind],
-        until_text(load.until));
+    print_result("load on \"{}\": {} particles{}, {} {} {}{}\n", load.body,
+                 count_text(static_cast<std::int64_t>(count)), face, kinds[kind],
+                 pressure ? load.value[0].text() : vector_text(load.value, particles.dimension), units[kind],
+                 until_text(load.until));
   }
   for (MirrorSpec const& mirror : spec.mirrors) {
     auto const count = face_particles(particles, body_named(particles, mirror.body), mirror.face).size();
-    say("mirror of \"{}\": {} particles on face {}\n", mirror.body, count_text(static_cast<std::int64_t>(count)),
-        face_text({}, mirror.face));
+    print_result("mirror of \"{}\": {} particles on face {}\n", mirror.body,
+                 count_text(static_cast<std::int64_t>(count)), face_text({}, mirror.face));
   }
 }
 
@@ -185,8 +187,8 @@ void print_cracks(ParticleSet const& particles) {
     auto const point = [](std::array<double, 3> const& X, bool tip) {
       return fmt::format("({}, {}){}", quantity_text(X[0], "m"), quantity_text(X[1], "m"), tip ? " (tip)" : "");
     };
-    say("crack in \"{}\": from {} to {}\n", particles.bodies[static_cast<std::size_t>(crack.body)].name,
-        point(crack.from, crack.tip_at_from), point(crack.to, crack.tip_at_to));
+    print_result("crack in \"{}\": from {} to {}\n", particles.bodies[static_cast<std::size_t>(crack.body)].name,
+                 point(crack.from, crack.tip_at_from), point(crack.to, crack.tip_at_to));
   }
 }
 
@@ -227,12 +229,12 @@ void print_colours(CaseSpec const& spec) {
   for (std::size_t a = 0; a < bodies.size(); ++a)
     for (std::size_t b = a + 1; b < bodies.size(); ++b)
       if (pushed_by_colour(spec, a, b)) pairs.push_back(bodies[a].name + "-" + bodies[b].name);
-  if (!pairs.empty()) say("contact by colour, without friction: {}\n", joined(pairs));
+  if (!pairs.empty()) print_result("contact by colour, without friction: {}\n", joined(pairs));
 }
 
 /// Prints the pairs in surface contact with their friction and stiffness scale.
 void print_surfaces(CaseSpec const& spec) {
-  if (!surfaces_meet(spec)) return;
+  if (!has_surface_contact(spec)) return;
   std::vector<std::string> pairs;
   auto const& bodies = spec.bodies;
   for (std::size_t a = 0; a < bodies.size(); ++a) {
@@ -245,12 +247,13 @@ void print_surfaces(CaseSpec const& spec) {
   std::size_t const left_out = pairs.size() > most ? pairs.size() - most : 0;
   pairs.resize(pairs.size() - left_out);
   ContactRule const rule = spec.contact ? ContactRule(*spec.contact) : ContactRule();
-  say("contact of surfaces: {}{}, {}{}\n", joined(pairs),
-      left_out > 0 ? " and " + count_text(static_cast<std::int64_t>(left_out)) + " more" : "",
-      friction_text(rule.friction), rule.scale != 1 ? ", scale " + number_text(rule.scale) : "");
+  print_result("contact of surfaces: {}{}, {}{}\n", joined(pairs),
+               left_out > 0 ? " and " + count_text(static_cast<std::int64_t>(left_out)) + " more" : "",
+               friction_text(rule.friction), rule.scale != 1 ? ", scale " + number_text(rule.scale) : "");
   for (ContactPairSpec const& pair : spec.contact_pairs)
-    say("  {}-{}: {}{}\n", pair.between[0], pair.between[1], pair.off ? "no contact" : friction_text(pair.friction),
-        !pair.off && pair.scale != 1 ? ", scale " + number_text(pair.scale) : "");
+    print_result("  {}-{}: {}{}\n", pair.between[0], pair.between[1],
+                 pair.off ? "no contact" : friction_text(pair.friction),
+                 !pair.off && pair.scale != 1 ? ", scale " + number_text(pair.scale) : "");
 }
 
 void print_contact(CaseSpec const& spec, int dimension) {
@@ -264,44 +267,44 @@ void print_contact(CaseSpec const& spec, int dimension) {
                (moves ? ", starts at " + speed : "");
     else if (rigid.turns())
       motion += ", turning";
-    say("rigid shape \"{}\": {}{}\n", rigid.name, shape_text(rigid, dimension), motion);
+    print_result("rigid shape \"{}\": {}{}\n", rigid.name, shape_text(rigid, dimension), motion);
   }
   print_surfaces(spec);
   print_colours(spec);
-  bool const own = knows_contact(spec);
+  bool const own = has_kernel_contact(spec);
   if (!own) return;
   constexpr std::array<std::string_view, 5> laws{"none", "kernel", "linear", "printed", "surface"};
   ContactRule const rule = spec.contact ? ContactRule(*spec.contact) : ContactRule();
   std::string text;
   if (rule.scale != 1) text += ", scale " + number_text(rule.scale);
-  if (rule.law == ContactRule::Law::printed)
+  if (rule.law == ContactRule::Law::as_published)
     text += ", stiffness " + quantity_text(rule.stiffness, "Pa/m^" + std::to_string(dimension));
   if (std::isfinite(rule.closing_speed)) text += ", closing speed " + quantity_text(rule.closing_speed, "m/s");
-  say("contact: law {}{}\n", laws[static_cast<std::size_t>(rule.law)], text);
+  print_result("contact: law {}{}\n", laws[static_cast<std::size_t>(rule.law)], text);
 }
 
 void print_ties(CaseSpec const& spec, ParticleSet const& particles) {
   auto const found = found_by_ties(spec, particles);
   for (std::size_t k = 0; k < found.size(); ++k) {
     TieSpec const& tie = spec.ties[k];
-    say("tie \"{}\": {} and {} points of \"{}\" and \"{}\", {}, at most {:.2g} spacings apart{}{}\n", tie.name,
-        found[k].points[0], found[k].points[1], tie.between[0], tie.between[1],
-        quantity_text(found[k].area, particles.dimension == 3 ? "m^2" : "m", 3), found[k].farthest,
-        found[k].left > 0 ? fmt::format("; {} more are farther and stay free", found[k].left) : "",
-        tie.fails()
-            ? ", fails at " + quantity_text(tie.strength, "Pa", 3) + " with " + quantity_text(tie.toughness, "J/m^2", 3)
-            : "");
+    print_result("tie \"{}\": {} and {} points of \"{}\" and \"{}\", {}, at most {:.2g} spacings apart{}{}\n", tie.name,
+                 found[k].points[0], found[k].points[1], tie.between[0], tie.between[1],
+                 quantity_text(found[k].area, particles.dimension == 3 ? "m^2" : "m", 3), found[k].farthest,
+                 found[k].left > 0 ? fmt::format("; {} more are farther and stay free", found[k].left) : "",
+                 tie.fails() ? ", fails at " + quantity_text(tie.strength, "Pa", 3) + " with " +
+                                   quantity_text(tie.toughness, "J/m^2", 3)
+                             : "");
   }
 }
 
 void print_output(CaseSpec const& spec) {
   auto const every = [&](std::string_view what, double interval) {
     if (interval > 0) {
-      say("  {} every {} ({} in all)\n", what, quantity_text(interval, "s"),
-          count_text(static_cast<std::int64_t>(std::min(spec.run.end / interval, 1e15)) + 1));
+      print_result("  {} every {} ({} in all)\n", what, quantity_text(interval, "s"),
+                   count_text(static_cast<std::int64_t>(std::min(spec.run.end / interval, 1e15)) + 1));
     }
   };
-  say("output:\n");
+  print_result("output:\n");
   every("a row of history.csv", spec.output.history_every > 0 ? spec.output.history_every : spec.run.end / 500);
   every("a frame", spec.output.frames_every);
   every("a picture of " + spec.output.pictures.field, spec.output.pictures.every);
@@ -311,8 +314,8 @@ void print_output(CaseSpec const& spec) {
     for (std::string const& quantity : probe.quantities) probes.push_back(probe.name + "." + quantity);
   }
   for (QuantitySpec const& quantity : spec.quantities) quantities.push_back(quantity.name);
-  if (!probes.empty()) say("  probes: {}\n", joined(probes));
-  if (!quantities.empty()) say("  quantities: {}\n", joined(quantities));
+  if (!probes.empty()) print_result("  probes: {}\n", joined(probes));
+  if (!quantities.empty()) print_result("  quantities: {}\n", joined(quantities));
 }
 
 struct CheckArguments {
@@ -337,9 +340,9 @@ CasePlan plan(CaseOptions const& options) {
 
 void say_plan(CasePlan const& plan, int ranks) {
   auto const& [spec, particles, facts, cost, warnings, left_out] = plan;
-  say("{}\n", spec.title);
-  say("{} particles in {}D, {} of motion\n", count_text(particles.size()), particles.dimension,
-      quantity_text(spec.run.end, "s"));
+  print_result("{}\n", spec.title);
+  print_result("{} particles in {}D, {} of motion\n", count_text(particles.size()), particles.dimension,
+               quantity_text(spec.run.end, "s"));
   for (std::size_t b = 0; b < facts.size(); ++b) print_body(spec.bodies[b], facts[b], particles);
   for (RegionSpec const& region : spec.regions) say_region(region, particles);
   print_supports(spec, particles);
@@ -348,11 +351,12 @@ void say_plan(CasePlan const& plan, int ranks) {
   print_contact(spec, particles.dimension);
   print_ties(spec, particles);
   say_cost(plan);
-  if (ranks > 0) say_ranks(spec, particles, cost, ranks);
+  if (ranks > 0) print_rank_estimate(spec, particles, cost, ranks);
   print_output(spec);
-  for (std::string const& what : left_out) say("left out: {}\n", what);
-  for (std::string const& warning : warnings) say("warning: {}\n", warning);
-  say("{}\n", warnings.empty() ? "Nothing is wrong with this case." : "The case can run; please look at the warnings.");
+  for (std::string const& what : left_out) print_result("left out: {}\n", what);
+  for (std::string const& warning : warnings) print_result("warning: {}\n", warning);
+  print_result(
+      "{}\n", warnings.empty() ? "Nothing is wrong with this case." : "The case can run; please look at the warnings.");
 }
 
 int check(CheckArguments const& arguments) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
+#include "piola/estimates/estimate.hpp"
 #include "piola/exec/threads.hpp"
 #include "piola/input/read_case.hpp"
-#include "piola/output/files.hpp"
+#include "piola/output/atomic_file.hpp"
 #include "piola/simulation/build.hpp"
-#include "piola/simulation/convergence_table.hpp"
-#include "piola/simulation/estimate.hpp"
-#include "piola/simulation/refinement.hpp"
-#include "piola/simulation/results_folder.hpp"
+#include "piola/observers/results_folder.hpp"
+#include "piola/study/convergence_table.hpp"
+#include "piola/study/refinement.hpp"
 #include "commands.hpp"
 #include "run_support.hpp"
 #include "set_up_watch.hpp"
@@ -102,7 +102,8 @@ void say_uneven(std::vector<Level> const& levels) {
   for (std::size_t k = 1; k < levels.size(); ++k) {
     SpacingRatio const ratio = spacing_ratio(levels[k].spec, levels[k - 1].spec);
     if (ratio.most > (1 + notable) * ratio.least)
-      say("note: from {} to {} the spacings of bodies and directions change by factors from {:.3g} to {:.3g}, so that "
+      print_result(
+          "note: from {} to {} the spacings of bodies and directions change by factors from {:.3g} to {:.3g}, so that "
           "the order is less certain - choose factors that divide the numbers of particles\n",
           levels[k - 1].run.folder, levels[k].run.folder, ratio.least, ratio.most);
     if (ratio.mean > 1 - notable)
@@ -119,12 +120,12 @@ void say_costs(std::vector<Level> const& levels) {
     double const wall = level.cost.setup_seconds + level.cost.run_seconds;
     seconds += wall;
     memory = std::max(memory, level.cost.memory);
-    say("{}: spacing {}, {} particles, about {} steps and {}\n", level.run.folder,
-        quantity_text(finest_spacing(level.spec), "m"), count_text(level.particles), count_text(level.cost.steps),
-        duration_text(wall));
+    print_result("{}: spacing {}, {} particles, about {} steps and {}\n", level.run.folder,
+                 quantity_text(finest_spacing(level.spec), "m"), count_text(level.particles),
+                 count_text(level.cost.steps), duration_text(wall));
   }
-  say("in all about {}, estimated, one run after the other; at most {} of memory for one\n", duration_text(seconds),
-      size_text(memory));
+  print_result("in all about {}, estimated, one run after the other; at most {} of memory for one\n",
+               duration_text(seconds), size_text(memory));
 }
 
 std::vector<double> spacings_of(std::vector<Level> const& levels) {
@@ -175,7 +176,7 @@ int converge(ConvergeArguments const& options) {
   if (code == stopped_by_signal) return code;
   ConvergenceTable const table(levels.front().spec.quantities, spacings_of(levels), outcomes);
   write_whole_file(folder / "convergence.csv", table.csv());
-  say("{}", table.text());
+  print_result("{}", table.text());
   return with_output(code == completed && !table.has_errors() ? physics_failed : code);
 }
 

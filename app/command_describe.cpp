@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
 #include "piola/simulation/case_schema.hpp"
 #include "commands.hpp"
+#include "man_page.hpp"
 #include "manual.hpp"
-#include "own_pages.hpp"
 #include "streams.hpp"
 #include <cstdio>
 #include <fmt/format.h>

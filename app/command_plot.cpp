@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/base/problems.hpp"
-#include "piola/output/files.hpp"
-#include "piola/report/check_rows.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/output/atomic_file.hpp"
+#include "piola/pictures/history_plot.hpp"
+#include "piola/report/checks_of_run.hpp"
 #include "piola/report/plot_references.hpp"
-#include "piola/simulation/history_plot.hpp"
-#include "piola/simulation/study_plot.hpp"
+#include "piola/study/study_plot.hpp"
 #include "commands.hpp"
 #include "streams.hpp"
 #include <algorithm>
@@ -25,9 +25,9 @@ void add_references_of(PlotArguments const& options, Plot& drawn) {
   report::RunFolder const run = report::open_run(options.folder);
   std::string note;
   auto const rows = report::rows_of_run(run, options.checks, options.variant, note);
-  if (!note.empty()) say("{}\n", note);
+  if (!note.empty()) print_result("{}\n", note);
   int const count = report::add_references(drawn, run, rows, options.columns);
-  say("{} reference{} of {}\n", count, count == 1 ? "" : "s", options.checks);
+  print_result("{} reference{} of {}\n", count, count == 1 ? "" : "s", options.checks);
 }
 
 bool is_logarithmic(PlotArguments const& options, char const* axis) {
@@ -73,7 +73,7 @@ int plot(PlotArguments const& options) {
   write_plot(out, drawn);
   // Rings at the runs of a study belong to its curves.
   std::size_t const curves = table.empty() ? drawn.curves.size() : drawn.curves.size() / 2;
-  say("{} curve{} drawn to {}\n", curves, curves == 1 ? "" : "s", out.string());
+  print_result("{} curve{} drawn to {}\n", curves, curves == 1 ? "" : "s", out.string());
   return completed;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/units.hpp"
 #include "piola/input/read_case.hpp"
-#include "piola/output/files.hpp"
-#include "piola/simulation/render.hpp"
-#include "piola/simulation/shape_picture.hpp"
+#include "piola/output/atomic_file.hpp"
+#include "piola/pictures/render.hpp"
+#include "piola/pictures/shape_picture.hpp"
 #include "commands.hpp"
 #include "run_support.hpp"
 #include "set_up_watch.hpp"
@@ -26,7 +26,7 @@ struct RenderArguments {
   std::vector<int> size;
   bool no_labels = false;
   FilmOptions film;
-  LookOptions look;
+  PictureOverrides look;
   std::vector<std::size_t> frames;
   bool last = false, shape = false, patches = false;
   std::size_t every = 1;
@@ -37,8 +37,8 @@ struct RenderArguments {
 };
 
 /// From words to numbers.
-LookOptions look_of(RenderArguments const& options) {
-  LookOptions look = options.look;
+PictureOverrides look_of(RenderArguments const& options) {
+  PictureOverrides look = options.look;
   if (options.view.size() == 1) look.named_view = options.view[0];
   if (options.view.size() == 2) {
     double azimuth = 0, elevation = 0;
@@ -68,7 +68,7 @@ int render_shape(RenderArguments const& options) {
   ShapePictureOptions const what{.look = look_of(options), .patches = options.patches};
   if (out.has_parent_path()) make_folder(out.parent_path());
   write_png(out, draw_shape(spec, particles, what));
-  say("the bodies are drawn to {}\n", out.string());
+  print_result("the bodies are drawn to {}\n", out.string());
   return completed;
 }
 
@@ -147,22 +147,22 @@ int render(RenderArguments options) {
   if (!options.film.file.empty()) {
     if (options.film.file.has_parent_path()) make_folder(options.film.file.parent_path());
     std::size_t const count = render_film(options.folder, what, options.film);
-    say("a film of {} pictures is drawn to {}\n", count, options.film.file.string());
+    print_result("a film of {} pictures is drawn to {}\n", count, options.film.file.string());
     return completed;
   }
   if (!options.times.empty()) {
-    say("the picture is drawn to {}\n", render_times(options.folder, what, times_of(options.times)).string());
+    print_result("the picture is drawn to {}\n", render_times(options.folder, what, times_of(options.times)).string());
     return completed;
   }
   auto const paths = render_frames(options.folder, what);
-  say("{} picture{} drawn, the last is {}\n", paths.size(), paths.size() == 1 ? "" : "s",
-      paths.empty() ? "none" : paths.back().string());
+  print_result("{} picture{} drawn, the last is {}\n", paths.size(), paths.size() == 1 ? "" : "s",
+               paths.empty() ? "none" : paths.back().string());
   return completed;
 }
 
 /// Adds the options of the view; defaults are the picture settings of the case in the folder.
 void add_look_options(CLI::App& command, RenderArguments& options) {
-  LookOptions& look = options.look;
+  PictureOverrides& look = options.look;
   command
       .add_option("--view", options.view,
                   "Azimuth and elevation in degrees, or x, y, z, -x, -y, -z, iso, iso2 (default: as the case has it)")
@@ -191,7 +191,7 @@ void add_look_options(CLI::App& command, RenderArguments& options) {
 }
 
 /// Adds the options of further objects and of picture quality.
-void add_drawing_options(CLI::App& command, LookOptions& look) {
+void add_drawing_options(CLI::App& command, PictureOverrides& look) {
   command.add_option("--quality", look.quality, "normal; high: more samples and a smoother shade")
       ->check(CLI::IsMember(std::vector<std::string>(quality_words.begin(), quality_words.end())));
   command.add_option("--warp", look.warp, "Draws displacements so many times as large")->check(CLI::Range(0.0, 1e6));

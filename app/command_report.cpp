@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
-#include "piola/output/files.hpp"
+#include "piola/output/atomic_file.hpp"
 #include "piola/report/page.hpp"
 #include "piola/report/report.hpp"
 #include "commands.hpp"
@@ -22,12 +22,13 @@ constexpr int follow_seconds = 10;
 
 report::ReportResult write_one(ReportArguments const& options, std::filesystem::path const& out) {
   auto const result = report::write_report(options.folder, out, options.what);
-  say("{} frame{} in {}, {}\n", result.frames, result.frames == 1 ? "" : "s", out.string(), size_text(result.bytes));
+  print_result("{} frame{} in {}, {}\n", result.frames, result.frames == 1 ? "" : "s", out.string(),
+               size_text(result.bytes));
   return result;
 }
 
 void tell_notes(report::ReportResult const& result) {
-  for (std::string const& note : result.notes) tell("note: {}\n", note);
+  for (std::string const& note : result.notes) print_message("note: {}\n", note);
 }
 
 /// Anew every ten seconds, until the run has ended or a signal comes.

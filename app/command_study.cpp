@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/simulation/study.hpp"
+#include "piola/study/study.hpp"
 #include "commands.hpp"
 #include "study_runs.hpp"
 #include <memory>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
-#include "piola/input/case_facts.hpp"
+#include "piola/input/body_properties.hpp"
 #include "piola/input/check_case.hpp"
 #include "piola/input/read_case.hpp"
-#include "piola/output/files.hpp"
+#include "piola/output/atomic_file.hpp"
 #include "piola/report/page.hpp"
 #include "piola/report/verification_page.hpp"
 #include "piola/report/verification_plots.hpp"
-#include "piola/simulation/verification_report.hpp"
+#include "piola/verification/verification_report.hpp"
 #include "commands.hpp"
 #include "signals.hpp"
 #include "streams.hpp"
@@ -49,7 +49,7 @@ class TemporaryFolder {
  public:
   TemporaryFolder() {
     std::string name = (fs::temp_directory_path() / "piola-verify-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw FileError(cannot_write(name, errno));
+    if (::mkdtemp(name.data()) == nullptr) throw FileError(write_error_text(name, errno));
     path_ = name;
   }
   TemporaryFolder(TemporaryFolder const&) = delete;
@@ -71,7 +71,7 @@ class ProgressLine {
   ProgressLine(ProgressLine const&) = delete;
   ProgressLine& operator=(ProgressLine const&) = delete;
   ~ProgressLine() {
-    if (shown_ > 0) tell("\r{:{}}\r", "", shown_);
+    if (shown_ > 0) print_message("\r{:{}}\r", "", shown_);
   }
 
   void show(VerifyProgress const& at) {
@@ -79,10 +79,10 @@ class ProgressLine {
     if (terminal_) line += fmt::format("  {:.0f} %", 100 * std::clamp(at.share, 0.0, 1.0));
     if (at.seconds_left) line += fmt::format("  about {} left", duration_text(*at.seconds_left));
     if (terminal_) {
-      tell("\r{:<{}}", line, shown_);
+      print_message("\r{:<{}}", line, shown_);
       shown_ = std::max(shown_, line.size());
     } else if (at.number != number_) {
-      tell("{}\n", line);
+      print_message("{}\n", line);
     }
     number_ = at.number;
   }
@@ -96,7 +96,7 @@ class ProgressLine {
 double work_of(fs::path const& file, std::vector<std::string> const& overrides) {
   CaseSpec const spec = read_case(file, overrides);
   ParticleSet const particles = make_particles(spec);
-  return static_cast<double>(particles.size()) * spec.run.end / step_estimate(spec, body_facts(spec, particles));
+  return static_cast<double>(particles.size()) * spec.run.end / step_estimate(spec, body_properties(spec, particles));
 }
 
 // For the page only: one small picture of the end.

@@ -31,7 +31,7 @@ void add_bench(CLI::App& program, Action& action);
 struct CaseOptions {
   std::string file;              ///< the case file
   std::vector<std::string> set;  ///< --set key=value
-  std::string threads, machine;  ///< --threads, --machine: short for --set run.threads=..., run.machine=...
+  std::string threads, backend;  ///< --threads, --machine: short for --set run.threads=..., run.machine=...
   void add_to(CLI::App& command, bool with_file = true);
   /// All as "key=value", in the order given; --threads and --machine last.
   std::vector<std::string> overrides() const;

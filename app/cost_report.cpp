@@ -23,14 +23,14 @@ void say_cost(CasePlan const& plan) {
   bool const bounded = plan.spec.run.max_step <= cost.step;
   std::string const first =
       cost.rule.first < cost.step ? fmt::format(", from {} at the start", quantity_text(cost.rule.first, "s", 3)) : "";
-  say("step: about {}{}, {}\n", quantity_text(cost.step, "s", 3), first, steps_text(cost));
-  say("  limited by {}\n", bounded ? "run.max_step" : cost.rule.limit);
-  if (!cost.varies.empty()) say("  {}\n", cost.varies);
+  print_result("step: about {}{}, {}\n", quantity_text(cost.step, "s", 3), first, steps_text(cost));
+  print_result("  limited by {}\n", bounded ? "run.max_step" : cost.rule.limit);
+  if (!cost.varies.empty()) print_result("  {}\n", cost.varies);
   std::string const most =
       cost.most_steps > cost.steps ? " (" + duration_text(cost.most_run_seconds) + " at most)" : "";
-  say("needs, estimated: {} to set up and {}{} to run with {} {}, {} of memory, {} of disk\n",
-      duration_text(cost.setup_seconds), duration_text(cost.run_seconds), most, cost.threads,
-      cost.threads == 1 ? "thread" : "threads", size_text(cost.memory), size_text(cost.disk));
+  print_result("needs, estimated: {} to set up and {}{} to run with {} {}, {} of memory, {} of disk\n",
+               duration_text(cost.setup_seconds), duration_text(cost.run_seconds), most, cost.threads,
+               cost.threads == 1 ? "thread" : "threads", size_text(cost.memory), size_text(cost.disk));
 }
 
 }  // namespace piola::app

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/simulation/case_plan.hpp"
+#include "piola/estimates/case_plan.hpp"
 
 namespace piola::app {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/stopped.hpp"
 #include "piola/base/version.hpp"
-#include "piola/exec/free_memory.hpp"
-#include "piola/parallel/ranks.hpp"
-#include "piola/simulation/ranks.hpp"
+#include "piola/domain/communicator.hpp"
+#include "piola/exec/heap_tuning.hpp"
+#include "piola/simulation/driver_and_workers.hpp"
 #include "commands.hpp"
-#include "hints.hpp"
+#include "name_hints.hpp"
 #include "signals.hpp"
+#include "sleep.hpp"
 #include "streams.hpp"
-#include "waiting.hpp"
 #include <exception>
 #include <filesystem>
 #include <fmt/format.h>
@@ -24,12 +24,12 @@ using app::tell;
 int report(std::string const& message, int code) {
   auto const trouble = leave({code, message});
   if (trouble) {
-    tell("piola: {}\n", trouble->message);
+    print_message("piola: {}\n", trouble->message);
     return trouble->code;
   }
-  app::be_silent(false);
-  tell("piola: {} (on rank {}, which ends all {})\n", message, ranks::own(), ranks::count());
-  ranks::abort_all(code);
+  app::set_quiet(false);
+  print_message("piola: {} (on rank {}, which ends all {})\n", message, comm::rank(), comm::size());
+  comm::abort_all(code);
   return code;
 }
 
@@ -39,12 +39,12 @@ int perform(app::Action const& action) {
     int const code = action();
     (void)leave({code, {}});
     return code;
-  } catch (ranks::Disagreement const& error) {
-    tell("piola: {}\n", error.what());
+  } catch (comm::CollectiveError const& error) {
+    print_message("piola: {}\n", error.what());
     return error.code();
   } catch (SetUpStopped const& error) {
-    tell("piola: {}\n", error.what());
-    if (ranks::several()) ranks::abort_all(app::stopped_by_signal);  // the other ranks are still in their set-up
+    print_message("piola: {}\n", error.what());
+    if (comm::is_parallel()) comm::abort_all(app::stopped_by_signal);  // the other ranks are still in their set-up
     return app::stopped_by_signal;
   } catch (InputError const& error) {
     return report(error.what(), app::bad_input);
@@ -76,9 +76,10 @@ int explain(CLI::App const& program, CLI::ParseError const& error, std::span<cha
 
 /// The action of the program as one of several ranks.
 app::Action shared(CLI::App const& program, app::Action action) {
-  if (!ranks::several() || program.got_subcommand("run") || program.got_subcommand("resume")) return action;
+  if (!comm::is_parallel() || program.got_subcommand("run") || program.got_subcommand("resume")) return action;
   return []() -> int {
-    tell("piola: several ranks (mpirun) are for 'piola run' and 'piola resume' - start this command without mpirun\n");
+    print_message(
+        "piola: several ranks (mpirun) are for 'piola run' and 'piola resume' - start this command without mpirun\n");
     return app::bad_input;
   };
 }
@@ -112,14 +113,14 @@ int use(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   app::secure_streams();
-  exec_host::give_back_arrays_at_once();
+  exec_host::set_mmap_threshold();
   app::sleep_while_waiting(argv);
-  ranks::start();
-  if (ranks::own() != 0) {
-    app::be_silent(true);
+  comm::start();
+  if (comm::rank() != 0) {
+    app::set_quiet(true);
     app::ignore_stop_signals();
   }
   int const code = use(argc, argv);
-  ranks::finish();
+  comm::finish();
   return code;
 }

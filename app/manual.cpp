@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "manual.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
 #include "piola/formulations/quantity_names.hpp"
 #include "piola/formulations/registry.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
 #include "piola/materials/library.hpp"
 #include "manual.hpp"

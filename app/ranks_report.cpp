@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ranks_report.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
+#include "piola/estimates/count_coupled_communication.hpp"
+#include "piola/estimates/estimate.hpp"
+#include "piola/estimates/scaling.hpp"
 #include "piola/simulation/build.hpp"
-#include "piola/simulation/estimate.hpp"
-#include "piola/simulation/ranks.hpp"
-#include "piola/simulation/scaling.hpp"
-#include "piola/simulation/talk_between.hpp"
+#include "piola/simulation/driver_and_workers.hpp"
 #include "set_up_watch.hpp"
 #include "streams.hpp"
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 template <class F>
 std::string between(Scaling const& scaling, F const& f, std::string (*text)(double)) {
   auto const [low, high] = std::minmax_element(scaling.shares.begin(), scaling.shares.end(),
-                                               [&](RankShare const& a, RankShare const& b) { return f(a) < f(b); });
+                                               [&](RankLoad const& a, RankLoad const& b) { return f(a) < f(b); });
   std::string const least = text(f(*low)), most = text(f(*high));
   return least == most ? most : least + " to " + most;
 }
@@ -33,52 +33,54 @@ std::string mean(double n) {
 }
 std::string size(double bytes) { return size_text(bytes); }
 
-struct Counted {
+struct CountedCase {
   Scaling on_ranks;
   int paying;  ///< the most ranks that pay, up to `most`
 };
 constexpr int most = 1024;
 
 /// Throws InputError for cases that do not run on ranks.
-Counted counted(CaseSpec const& spec, ParticleSet const& particles, Estimate cost, int ranks) {
+CountedCase counted(CaseSpec const& spec, ParticleSet const& particles, Estimate cost, int ranks) {
   SetUpWatch const watch(fmt::format("counting what {} particles tell each other", count_text(particles.size())), {});
   Assembly const assembly = assemble(spec, particles);
-  refuse_on_ranks(assembly, ranks);
+  refuse_unsupported_on_ranks(assembly, ranks);
   if (!runs_on_ranks(cost))
     throw InputError(fmt::format(
         "--ranks {}: what this case would send is not known before it runs (bodies that ranks do not share were not "
         "counted) - run some steps with mpirun, and look at \"ranks\" in summary.json",
         ranks));
   if (particles.size() >= large_case) count_talk_between(assembly, cost);
-  return {scale(particles, cost, ranks), ranks_that_pay(particles, cost, most)};
+  return {scale(particles, cost, ranks), max_efficient_ranks(particles, cost, most)};
 }
 
 }  // namespace
 
-void say_ranks(CaseSpec const& spec, ParticleSet const& particles, Estimate const& cost, int ranks) {
+void print_rank_estimate(CaseSpec const& spec, ParticleSet const& particles, Estimate const& cost, int ranks) {
   auto const [s, paying] = counted(spec, particles, cost, ranks);
-  say("on {} {} with {} {} each:\n", count(ranks), ranks == 1 ? "rank" : "ranks", cost.threads,
-      cost.threads == 1 ? "thread" : "threads");
-  say("  of a rank: {} particles, and {} of others that it reads; it sends {} messages, {} in a step; {} of memory\n",
+  print_result("on {} {} with {} {} each:\n", count(ranks), ranks == 1 ? "rank" : "ranks", cost.threads,
+               cost.threads == 1 ? "thread" : "threads");
+  print_result(
+      "  of a rank: {} particles, and {} of others that it reads; it sends {} messages, {} in a step; {} of memory\n",
       between(
-          s, [](RankShare const& r) { return static_cast<double>(r.particles); }, count),
+          s, [](RankLoad const& r) { return static_cast<double>(r.particles); }, count),
       between(
-          s, [](RankShare const& r) { return static_cast<double>(r.halo + r.near); }, count),
+          s, [](RankLoad const& r) { return static_cast<double>(r.halo + r.near); }, count),
       between(
-          s, [](RankShare const& r) { return r.messages; }, mean),
+          s, [](RankLoad const& r) { return r.messages; }, mean),
       between(
-          s, [](RankShare const& r) { return r.bytes; }, size),
+          s, [](RankLoad const& r) { return r.bytes; }, size),
       between(
-          s, [](RankShare const& r) { return r.memory; }, size));
-  if (s.to_all > 0) say("  all ranks are told {} in a step\n", size(s.to_all));
+          s, [](RankLoad const& r) { return r.memory; }, size));
+  if (s.to_all > 0) print_result("  all ranks are told {} in a step\n", size(s.to_all));
   StepTimes const& t = s.times;
   auto const time = [](double seconds) { return quantity_text(seconds, "s", 3); };
-  say("  a step, estimated: {} (sweeps {}, messages {}, {} collectives {}, rows of history.csv {})\n", time(t.total()),
-      time(t.sweeps), time(t.messages), mean(s.collectives), time(t.collectives), time(t.rows));
-  say("  efficiency {:.0f} %; {}\n", 100 * s.efficiency,
-      paying >= most
-          ? fmt::format("{} ranks still pay", most)
-          : fmt::format("beyond {} {} more than half of the time is lost", paying, paying == 1 ? "rank" : "ranks"));
+  print_result("  a step, estimated: {} (sweeps {}, messages {}, {} collectives {}, rows of history.csv {})\n",
+               time(t.total()), time(t.sweeps), time(t.messages), mean(s.collectives), time(t.collectives),
+               time(t.rows));
+  print_result("  efficiency {:.0f} %; {}\n", 100 * s.efficiency,
+               paying >= most ? fmt::format("{} ranks still pay", most)
+                              : fmt::format("beyond {} {} more than half of the time is lost", paying,
+                                            paying == 1 ? "rank" : "ranks"));
 }
 
 }  // namespace piola::app

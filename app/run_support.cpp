@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run_support.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
 #include "piola/base/units.hpp"
 #include "commands.hpp"
@@ -44,20 +44,20 @@ StatusLine::StatusLine() : terminal_(::isatty(STDERR_FILENO) != 0), last_(std::c
 StatusLine::~StatusLine() { clear(); }
 
 void StatusLine::clear() {
-  if (shown_ > 0) tell("\r{:{}}\r", "", shown_);
+  if (shown_ > 0) print_message("\r{:{}}\r", "", shown_);
   shown_ = 0;
 }
 
 void StatusLine::show(std::string const& line) {
   if (terminal_) {
-    tell("\r{:<{}}", line, shown_);
+    print_message("\r{:<{}}", line, shown_);
     shown_ = std::max(shown_, line.size());
     return;
   }
   auto const now = std::chrono::steady_clock::now();
   if (now - last_ < std::chrono::seconds(10)) return;
   last_ = now;
-  tell("{}\n", line);
+  print_message("{}\n", line);
 }
 
 void Console::progress(Progress const& progress) {
@@ -66,7 +66,7 @@ void Console::progress(Progress const& progress) {
 
 void Console::warning(std::string const& text) {
   clear();
-  tell("warning: {}\n", text);
+  print_message("warning: {}\n", text);
 }
 
 std::string start_report(Simulation const& s, std::filesystem::path const& folder) {
@@ -116,7 +116,7 @@ std::string end_report(CaseOutcome const& outcome, std::filesystem::path const& 
   if (!outcome.last_picture.empty()) text += fmt::format("  picture: {}\n", outcome.last_picture.string());
   if (!outcome.index.empty()) text += fmt::format("  for ParaView: {}\n", outcome.index.string());
   if (outcome.out_of_time) text += "  the wall time is used up\n";
-  if (outcome.ending == Ending::stopped)
+  if (outcome.ending == RunStatus::stopped)
     text += fmt::format("  a checkpoint was written; continue with: piola resume {}\n", folder.string());
   return text;
 }
@@ -146,10 +146,10 @@ int run_and_report(Simulation& simulation, RunOptions options, bool quiet) {
   CaseOutcome const outcome = run_case(simulation, options, console, stop_signal);
   console.clear();
   if (!quiet) write_out(end_report(outcome, options.folder));
-  if (outcome.ending == Ending::failed) tell("piola: {}\n", outcome.failure);
+  if (outcome.ending == RunStatus::failed) print_message("piola: {}\n", outcome.failure);
   switch (outcome.ending) {
-    case Ending::failed: return physics_failed;
-    case Ending::stopped: return stopped_by_signal;
+    case RunStatus::failed: return physics_failed;
+    case RunStatus::stopped: return stopped_by_signal;
     default: return completed;
   }
 }

@@ -2,8 +2,8 @@
 #include "set_up_watch.hpp"
 #include "piola/base/stopped.hpp"
 #include "piola/base/text.hpp"
+#include "piola/domain/communicator.hpp"
 #include "piola/input/read_case.hpp"
-#include "piola/parallel/ranks.hpp"
 #include "commands.hpp"
 #include "signals.hpp"
 #include "streams.hpp"
@@ -69,7 +69,7 @@ AfterSweep SetUpWatch::operator()(std::string const& body, double done) {
     line_.show(
         fmt::format("packing {}: {:.0f} %, {} left", body, 100 * done, duration_text(spent * (1 - done) / done)));
   bool const ends = stop_signal != 0 || wall_.reached();
-  if (ends && ranks::own() == 0) return AfterSweep::keep;  // it ends the other ranks
+  if (ends && comm::rank() == 0) return AfterSweep::keep;  // it ends the other ranks
   if (!(spent > limits_.most_packing)) return AfterSweep::go_on;
   double const left = spent * (1 - done) / done;
   seconds_left_out_ += left;
@@ -92,15 +92,16 @@ void SetUpWatch::end_if_due() {
   double const elapsed = seconds_between(program_start, Clock::now());
   bool const late = wall_.exists() && elapsed >= std::max(least, 0.995 * limits_.wall_time - last_moment);
   bool const asked = stop_signal != 0 && !packs();
-  if (!(late || asked) || ranks::own() != 0) return;
+  if (!(late || asked) || comm::rank() != 0) return;
   line_.clear();
   // If a rank stops all ranks, the launcher sends signals to the others; that rank has printed the reason.
-  bool const launcher_may_have_sent_it = !late && ranks::several();
+  bool const launcher_may_have_sent_it = !late && comm::is_parallel();
   if (!launcher_may_have_sent_it)
-    tell("piola: set-up was stopped {} while {} ({} after the start); there is nothing to continue from - {}\n",
-         cause(), stage_, duration_text(elapsed),
-         late ? "give more time, or choose fewer particles" : "start the same command again");
-  if (ranks::several()) ranks::abort_all(stopped_by_signal);
+    print_message(
+        "piola: set-up was stopped {} while {} ({} after the start); there is nothing to continue from - {}\n", cause(),
+        stage_, duration_text(elapsed),
+        late ? "give more time, or choose fewer particles" : "start the same command again");
+  if (comm::is_parallel()) comm::abort_all(stopped_by_signal);
   ::_exit(stopped_by_signal);
 }
 
@@ -121,7 +122,7 @@ void SetUpWatch::watch() {
 }
 
 Simulation set_up(SetUpFrom const& from, SetUpWatch::Limits const& limits) {
-  if (ranks::own() == 0) catch_stop_signals();
+  if (comm::rank() == 0) catch_stop_signals();
   SetUpWatch watch("reading the case and making its particles", limits);
   ParticleSet particles;
   CaseSpec spec =

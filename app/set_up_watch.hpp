@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/setup/solid_bodies.hpp"
-#include "piola/simulation/wall_limit.hpp"
+#include "piola/setup/packed_bodies.hpp"
+#include "piola/simulation/wall_time_limit.hpp"
 #include "run_support.hpp"
 #include <chrono>
 #include <condition_variable>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solid_report.hpp"
 #include "piola/base/text.hpp"
-#include "piola/geometry/measure.hpp"
+#include "piola/geometry/patch_measures.hpp"
 #include "piola/setup/cloud_checks.hpp"
-#include "piola/setup/solid_bodies.hpp"
+#include "piola/setup/packed_bodies.hpp"
 #include "streams.hpp"
 #include <cmath>
 
@@ -24,28 +24,30 @@ double size_of(ShapeSpec const& shape) {
 }
 
 void say_volume(ShapeSpec const& shape) {
-  say("  volume {}", quantity_text(shape.volume, shape.dimension == 2 ? "m^2" : "m^3"));
+  print_result("  volume {}", quantity_text(shape.volume, shape.dimension == 2 ? "m^2" : "m^3"));
   if (shape.arrangement == ShapeSpec::Arrangement::packed) {
     SolidParticles const& particles = SolidParticles::of(shape);
     geometry::PackingQuality const q =
         geometry::quality_of(*shape.solid, {particles.X, particles.volume, particles.spacing, particles.sweeps});
-    say("; packed in {} sweeps: nearest particles {:.2f} spacings apart on average, {:.2f} at least, {:.0f} % of the "
+    print_result(
+        "; packed in {} sweeps: nearest particles {:.2f} spacings apart on average, {:.2f} at least, {:.0f} % of the "
         "outer layer in place, the surface within {:.2f} spacings of a particle",
         particles.sweeps, q.nearest_mean, q.nearest_least, 100 * q.in_place, q.gap);
   }
-  say("\n");
+  print_result("\n");
   if (auto const thin = shape.solid_particles->thinnest(shape))
-    say("  thinnest where it is {:.3g} spacings thick, around {} m\n", thin->thickness / shape.spacing,
-        place_text(thin->X, shape.dimension, size_of(shape)));
+    print_result("  thinnest where it is {:.3g} spacings thick, around {} m\n", thin->thickness / shape.spacing,
+                 place_text(thin->X, shape.dimension, size_of(shape)));
 }
 
 void say_patches(ShapeSpec const& shape) {
   for (geometry::PatchFacts const& patch : geometry::patch_facts(*shape.solid, 0.25 * shape.spacing)) {
-    say("  patch \"{}\": {} around {} m", patch.name, quantity_text(patch.area, shape.dimension == 2 ? "m" : "m^2"),
-        place_text(patch.centre, shape.dimension, size_of(shape)));
+    print_result("  patch \"{}\": {} around {} m", patch.name,
+                 quantity_text(patch.area, shape.dimension == 2 ? "m" : "m^2"),
+                 place_text(patch.centre, shape.dimension, size_of(shape)));
     if (std::sqrt(dot(patch.direction, patch.direction)) > 0.999)
-      say(", normal {}", place_text(patch.direction, shape.dimension, 1));
-    say("\n");
+      print_result(", normal {}", place_text(patch.direction, shape.dimension, 1));
+    print_result("\n");
   }
 }
 
@@ -54,16 +56,17 @@ void say_neighbourhood(ParticleSet const& particles, Body const& body) {
   WorstNeighbourhood const worst = worst_neighbourhood(particles, body);
   auto const& X = particles.X[worst.point];
   double const across = static_cast<double>(std::max({body.lattice[0], body.lattice[1], body.lattice[2]}));
-  say("  worst neighbourhood: the smallest eigenvalue of the gradient's matrix is {:.2g} of the usual one, with {} "
+  print_result(
+      "  worst neighbourhood: the smallest eigenvalue of the gradient's matrix is {:.2g} of the usual one, with {} "
       "neighbours, at {} m\n",
       worst.part(), worst.neighbours, place_text({{X[0], X[1], X[2]}}, particles.dimension, across * body.spacing[0]));
 }
 
 }  // namespace
 
-void say_solid(ShapeSpec const& shape, ParticleSet const& particles, Body const& body) {
+void print_solid_report(ShapeSpec const& shape, ParticleSet const& particles, Body const& body) {
   if (shape.solid) say_volume(shape);
-  if (body.scattered) say_neighbourhood(particles, body);
+  if (body.off_lattice) say_neighbourhood(particles, body);
   if (shape.solid) say_patches(shape);
 }
 

@@ -17,7 +17,7 @@ bool silent = false;
 
 /// Writes the whole text; returns 0 or the errno of the failure. Waits for a non-blocking descriptor for at most
 /// `patience` [ms] (-1: no limit).
-int write_all(int descriptor, std::string_view text, int patience) {
+int write_all(int descriptor, std::string_view text, int shutdown_timeout) {
   while (!text.empty()) {
     ::ssize_t const written = ::write(descriptor, text.data(), text.size());
     if (written >= 0) {
@@ -28,7 +28,7 @@ int write_all(int descriptor, std::string_view text, int patience) {
     if (error == EINTR) continue;
     if (error != EAGAIN) return error;
     pollfd ready{.fd = descriptor, .events = POLLOUT, .revents = 0};
-    if (::poll(&ready, 1, patience) == 0) return error;
+    if (::poll(&ready, 1, shutdown_timeout) == 0) return error;
   }
   return 0;
 }
@@ -46,7 +46,7 @@ void secure_streams() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-void be_silent(bool wish) { silent = wish; }
+void set_quiet(bool conversion_request) { silent = conversion_request; }
 
 void write_out(std::string_view text) {
   if (silent) return;
@@ -59,16 +59,16 @@ void clear_terminal() {
 }
 
 void write_err(std::string_view text) {
-  constexpr int patience = 1000;
+  constexpr int shutdown_timeout = 1000;
   if (silent) return;
-  write_all(STDERR_FILENO, without_controls(text), patience);
+  write_all(STDERR_FILENO, without_controls(text), shutdown_timeout);
 }
 
 int with_output(int code) {
   if (out_error == 0) return code;
   if (out_error != EPIPE)
-    tell("piola: standard output: cannot be written, {} - give it a file or a terminal with room\n",
-         std::generic_category().message(out_error));
+    print_message("piola: standard output: cannot be written, {} - give it a file or a terminal with room\n",
+                  std::generic_category().message(out_error));
   return code == completed ? internal_error : code;
 }
 

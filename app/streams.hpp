@@ -12,7 +12,7 @@ namespace piola::app {
 void secure_streams();
 
 /// Switches output off or on: of the ranks of a run only the first one prints.
-void be_silent(bool silent);
+void set_quiet(bool silent);
 
 /// Writes to standard output, and to standard error; control characters (base/controls.hpp) are escaped. Neither throws
 /// nor ends the program, so that a run continues without a reader.
@@ -23,11 +23,11 @@ void write_err(std::string_view text);
 void clear_terminal();
 
 template <class... T>
-void say(fmt::format_string<T...> format, T&&... values) {
+void print_result(fmt::format_string<T...> format, T&&... values) {
   write_out(fmt::format(format, std::forward<T>(values)...));
 }
 template <class... T>
-void tell(fmt::format_string<T...> format, T&&... values) {
+void print_message(fmt::format_string<T...> format, T&&... values) {
   write_err(fmt::format(format, std::forward<T>(values)...));
 }
 

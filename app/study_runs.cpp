@@ -2,7 +2,7 @@
 #include "study_runs.hpp"
 #include "piola/base/text.hpp"
 #include "piola/input/read_case.hpp"
-#include "piola/output/files.hpp"
+#include "piola/output/atomic_file.hpp"
 #include "commands.hpp"
 #include "run_support.hpp"
 #include "signals.hpp"
@@ -113,8 +113,8 @@ class Pool {
       outcomes_[k] = done_before ? *before : start(run, identities_[k]);
       std::string const& why = outcomes_[k].why;
       std::scoped_lock const lock(guard_);
-      say("{} ({}): {}{}{}\n", run.folder, description(run), outcomes_[k].status, done_before ? " before" : "",
-          why.empty() ? "" : ", " + why);
+      print_result("{} ({}): {}{}{}\n", run.folder, description(run), outcomes_[k].status, done_before ? " before" : "",
+                   why.empty() ? "" : ", " + why);
     }
   }
 
@@ -176,8 +176,8 @@ std::vector<RunOutcome> make_runs(StudySpec const& study, fs::path const& folder
                                   std::vector<std::string> const& identities) {
   make_folder(folder);
   catch_stop_signals();
-  say("{} runs, {} at a time on {} thread{} each, in {}\n", runs.size(), study.jobs, study.threads,
-      study.threads == 1 ? "" : "s", folder.string());
+  print_result("{} runs, {} at a time on {} thread{} each, in {}\n", runs.size(), study.jobs, study.threads,
+               study.threads == 1 ? "" : "s", folder.string());
   Pool pool(study, folder, runs, identities);
   {
     std::vector<std::jthread> workers;
@@ -187,7 +187,7 @@ std::vector<RunOutcome> make_runs(StudySpec const& study, fs::path const& folder
   write_study_table(folder, study, runs, outcomes);
   auto const good = std::count_if(outcomes.begin(), outcomes.end(),
                                   [](RunOutcome const& outcome) { return outcome.status == "completed"; });
-  say("{} of {} completed; values and quantities in {}\n", good, runs.size(), (folder / "study.csv").string());
+  print_result("{} of {} completed; values and quantities in {}\n", good, runs.size(), (folder / "study.csv").string());
   return outcomes;
 }
 

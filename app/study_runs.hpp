@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/simulation/study.hpp"
+#include "piola/study/study.hpp"
 #include <filesystem>
 #include <string>
 #include <vector>

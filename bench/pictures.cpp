@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/drawing/draw_bodies.hpp"
 #include "piola/exec/threads.hpp"
-#include "piola/output/draw_bodies.hpp"
 #include "piola/setup/shapes.hpp"
 #include <benchmark/benchmark.h>
 
@@ -11,7 +11,7 @@ namespace {
 struct BentCube {
   ParticleSet set;
   std::vector<ReferenceMesh> meshes;
-  std::vector<Place3> x;
+  std::vector<Point3> x;
   std::vector<double> radius, values;
   explicit BentCube(int n) {
     ShapeSpec shape;
@@ -47,7 +47,7 @@ void draw(benchmark::State& state, Appearance const& appearance) {
 void skin(benchmark::State& state) { draw(state, {.as = {Representation::skin}}); }
 void balls(benchmark::State& state) { draw(state, {.as = {Representation::balls}}); }
 void high_quality(benchmark::State& state) { draw(state, {.as = {Representation::skin}, .quality = Quality::high}); }
-void on_ground(benchmark::State& state) { draw(state, {.as = {Representation::skin}, .ground = Place3{0, 1, 0}}); }
+void on_ground(benchmark::State& state) { draw(state, {.as = {Representation::skin}, .ground = Point3{0, 1, 0}}); }
 void mesh(benchmark::State& state) {
   BentCube const cube(static_cast<int>(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(reference_meshes(cube.set).data());

@@ -7,7 +7,7 @@ Usage: bench/scaling.py [PARTICLES_PER_RANK ...]      default: 1e6 1e5 1e4
 import math
 import sys
 
-# A step of the default scheme, counted (tests/parallel/ranks_traffic_test.py): right-hand sides, exchanges in each,
+# A step of the default scheme, counted (tests/domain/ranks_traffic_test.py): right-hand sides, exchanges in each,
 # collectives; numbers per halo particle by layers of a lattice within reach.
 STAGES, EXCHANGES, COLLECTIVES = 1.08, 6, 3.2
 NUMBERS = {1: 25, 2: 4}

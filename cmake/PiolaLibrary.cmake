@@ -1,30 +1,31 @@
 # SPDX-License-Identifier: Apache-2.0
-# The library: every room of src/piola. Files named machine.cpp are compiled by PiolaMachines.cmake, which comes first
+# The library: every module of src/piola. Files named backend.cpp are compiled by PiolaBackends.cmake, which comes first
 # so that they do too: they take longest.
 
-set(PIOLA_ROOMS base math exec kernels materials particles geometry neighbours parallel mechanics formulations setup
-                input output simulation report)
+set(PIOLA_MODULES base math exec kernels materials particles geometry neighbours domain mechanics formulations setup
+                  input output drawing observers guards measures pictures simulation estimates study verification
+                  bench report)
 set(_patterns "")
-foreach(room IN LISTS PIOLA_ROOMS)
-  list(APPEND _patterns "${PROJECT_SOURCE_DIR}/src/piola/${room}/*.cpp")
+foreach(module IN LISTS PIOLA_MODULES)
+  list(APPEND _patterns "${PROJECT_SOURCE_DIR}/src/piola/${module}/*.cpp")
 endforeach()
-foreach(room IN ITEMS materials mechanics formulations)
-  list(APPEND _patterns "${PROJECT_SOURCE_DIR}/src/piola/${room}/*/*.cpp")
+foreach(module IN ITEMS materials mechanics formulations)
+  list(APPEND _patterns "${PROJECT_SOURCE_DIR}/src/piola/${module}/*/*.cpp")
 endforeach()
 file(GLOB _sources CONFIGURE_DEPENDS ${_patterns})
 include(PiolaWeb)
 list(APPEND _sources "${PROJECT_BINARY_DIR}/web/web.cpp")
-list(FILTER _sources EXCLUDE REGEX "/machine\\.cpp$")
+list(FILTER _sources EXCLUDE REGEX "/backend\\.cpp$")
 if(PIOLA_MESH)
   list(FILTER _sources EXCLUDE REGEX "/geometry/mesh_absent\\.cpp$")
 else()
   list(FILTER _sources EXCLUDE REGEX "/geometry/mesh(_[b-z][a-z]*)?\\.cpp$")
 endif()
 if(PIOLA_MPI)
-  list(FILTER _sources EXCLUDE REGEX "/parallel/ranks_absent\\.cpp$")
+  list(FILTER _sources EXCLUDE REGEX "/domain/communicator_serial\\.cpp$")
 else()
-  list(FILTER _sources EXCLUDE REGEX "/parallel/ranks_mpi\\.cpp$")
-  set_source_files_properties("${PROJECT_SOURCE_DIR}/src/piola/parallel/ranks_absent.cpp" PROPERTIES
+  list(FILTER _sources EXCLUDE REGEX "/domain/communicator_mpi\\.cpp$")
+  set_source_files_properties("${PROJECT_SOURCE_DIR}/src/piola/domain/communicator_serial.cpp" PROPERTIES
     SKIP_UNITY_BUILD_INCLUSION ON)  # programs may bring ranks_mpi.cpp in its place: PiolaProgram.cmake
 endif()
 set(_input_sources ${_sources})
@@ -41,16 +42,16 @@ if(PIOLA_MPI)
   list(APPEND _outside Piola::mpi)
 endif()
 
-# A library of object files that become part of piola. It does not wait for the machines, which take longest.
-function(piola_add_rooms target)
+# A library of object files that become part of piola. It does not wait for the backends, which take longest.
+function(piola_add_modules target)
   add_library(${target} OBJECT ${ARGN})
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
   target_include_directories(${target} SYSTEM PRIVATE "${PIOLA_TOML_INCLUDE}")
   target_compile_definitions(${target} PRIVATE PIOLA_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${target} PRIVATE piola_options piola_warnings piola_host piola_hardened ${_outside})
   target_sources(piola PRIVATE $<TARGET_OBJECTS:${target}>)
-  # Files of one room read the same headers: a few of them as one take half the time. Names in unnamed namespaces must
-  # differ within a room, which tools/test sees, because it builds so.
+  # Files of one folder read the same headers: a few of them as one take half the time. Names in unnamed namespaces must
+  # differ within a folder, which tools/test sees, because it builds so.
   if(PIOLA_TOGETHER)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
     foreach(source IN LISTS ARGN)
@@ -63,7 +64,7 @@ function(piola_add_rooms target)
   endif()
 endfunction()
 
-add_library(piola STATIC ${PIOLA_MACHINE_OBJECTS})
+add_library(piola STATIC ${PIOLA_BACKEND_OBJECTS})
 add_library(Piola::piola ALIAS piola)
 set_target_properties(piola PROPERTIES LINKER_LANGUAGE CXX)
 target_include_directories(piola PUBLIC
@@ -71,8 +72,8 @@ target_include_directories(piola PUBLIC
 target_link_libraries(piola
   PUBLIC piola_options
   PRIVATE $<BUILD_INTERFACE:piola_hardened> ${_outside})
-piola_add_rooms(piola_rooms ${_sources})
+piola_add_modules(piola_modules ${_sources})
 
 # Reading a case is no hot loop, and compiles a third faster with little optimisation.
-piola_add_rooms(piola_input ${_input_sources})
+piola_add_modules(piola_input ${_input_sources})
 target_compile_options(piola_input PRIVATE $<$<CONFIG:Release>:-O1>)

@@ -27,7 +27,7 @@ target_compile_options(piola_warnings INTERFACE
 
 # piola_hardened: what makes mistakes harder to abuse, in release builds: a guard before return addresses, checked
 # copies, code at random places (piola_pie), and tables of addresses that are read-only once the program runs. The hot
-# files of the machines take piola_pie alone: the guard costs 2 % there (piola bench, regular lattice). With a Python
+# files of the backends take piola_pie alone: the guard costs 2 % there (piola bench, regular lattice). With a Python
 # module the library is position independent, too; without semantic interposition its functions are inlined as before.
 # Sanitizers bring guards of their own.
 option(PIOLA_HARDENING "Harden release builds (stack protector, checked copies, PIE, full RELRO)" ON)
@@ -50,4 +50,4 @@ endif()
 
 # piola_host: files that are compiled once, for the baseline of the processor family.
 add_library(piola_host INTERFACE)
-target_compile_definitions(piola_host INTERFACE PIOLA_MACHINE=host PIOLA_MACHINE_IS_HOST=1)
+target_compile_definitions(piola_host INTERFACE PIOLA_BACKEND=host PIOLA_BACKEND_IS_HOST=1)

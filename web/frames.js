@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the texts in the page to numbers: the counterpart of src/piola/report/frame_code.hpp, where the coding is told.
+// From the texts in the page to numbers: the counterpart of src/piola/report/frame_codec.hpp, where the coding is told.
 
 /** The bytes that a base64 text stands for. */
 function bytesOf(text) {

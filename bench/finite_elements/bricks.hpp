@@ -102,17 +102,17 @@ class Bricks {
 
   /// Stresses times volumes of a pack of bricks, summed along Gauss lines.
   template <bool watching>
-  Watch stresses(Lines const& F, Lines& P, Pack alive) const {
+  Watch stresses(Lines const& F, Lines& P, Pack active) const {
     Watch watch;
     std::array<Pack, 8> J;
     Pack theta{};
     for (std::size_t g = 0; g < 8; ++g) {
       Pack const det = dot(F[0][line(g, 0)], cross(F[1][line(g, 1)], F[2][line(g, 2)]));
-      J[g] = det * alive + (1.0 - alive);  // what is no brick has no finite power of J
+      J[g] = det * active + (1.0 - active);  // what is no brick has no finite power of J
       theta += 0.125 * J[g];
     }
     for (auto& axis : P) axis.fill(Vec{});
-    Pack const weight = (0.125 * volume_) * alive;
+    Pack const weight = (0.125 * volume_) * active;
     Pack const p = kappa_ * (theta - 1.0);
     Pack energy = 8.0 * weight * (0.5 * kappa_) * (theta - 1.0) * (theta - 1.0), bound{};
     for (std::size_t g = 0; g < 8; ++g) {
@@ -133,7 +133,7 @@ class Bricks {
           double const h2 = over_spacing_[axis] * over_spacing_[axis];
           here += h2 * ((kappa_ + 2.0 * shear) * dot(H[axis], H[axis]) + 2.0 * shear);
         }
-        Pack const larger = here * alive;
+        Pack const larger = here * active;
         for (std::ptrdiff_t l = 0; l < width; ++l) bound[l] = std::max(bound[l], larger[l]);
       }
     }
@@ -160,7 +160,7 @@ class Bricks {
       }
       Lines F, P;
       gradients(corners, F);
-      Watch const seen = stresses<watching>(F, P, load(&mesh.alive[0] + e));
+      Watch const seen = stresses<watching>(F, P, load(&mesh.active[0] + e));
       watch.energy += seen.energy;
       watch.frequency2 = std::max(watch.frequency2, seen.frequency2);
       scatter(P, corners);

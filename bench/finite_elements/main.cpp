@@ -195,7 +195,7 @@ std::array<double, 2> vertex(Curve const& c, std::size_t k) {
 
 double read_off(Reading const& reading, Curve const& c) {
   auto const& y = c.value;
-  if (reading.take == Take::at_time) {
+  if (reading.take == Statistic::at_time) {
     auto const after = std::lower_bound(c.time.begin(), c.time.end(), reading.time * (1 - 1e-12));
     auto const k = static_cast<std::size_t>(after - c.time.begin());
     if (k == 0 || k == y.size()) throw std::runtime_error(reading.name + ": the run is too short");
@@ -203,7 +203,7 @@ double read_off(Reading const& reading, Curve const& c) {
     return (y[k - 1] + share * (y[k] - y[k - 1])) / reading.scale;
   }
   std::size_t at = 0;
-  if (reading.take == Take::first_peak || reading.take == Take::time_of_first_peak) {
+  if (reading.take == Statistic::first_peak || reading.take == Statistic::time_of_first_peak) {
     double largest = 0;
     for (double const value : y) largest = std::max(largest, std::abs(value));
     for (std::size_t k = 1; k + 1 < y.size() && at == 0; ++k) {
@@ -215,7 +215,7 @@ double read_off(Reading const& reading, Curve const& c) {
     at = static_cast<std::size_t>(place - y.begin());
   }
   if (at == 0 || at + 1 == y.size()) throw std::runtime_error(reading.name + ": the run holds no peak");
-  bool const time = reading.take == Take::time_of_first_peak || reading.take == Take::time_of_largest;
+  bool const time = reading.take == Statistic::time_of_first_peak || reading.take == Statistic::time_of_largest;
   return vertex(c, at)[time ? 0 : 1] / reading.scale;
 }
 

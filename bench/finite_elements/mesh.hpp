@@ -61,7 +61,7 @@ struct Mesh {
   std::array<std::ptrdiff_t, 3> cells{};
   std::array<double, 3> spacing{}, low{};
   std::ptrdiff_t row = 0, layer = 0, size = 0;
-  std::vector<double> alive;                    ///< 1 where a brick begins, else 0
+  std::vector<double> active;                    ///< 1 where a brick begins, else 0
   std::vector<double> mass;                     ///< lumped, kg; 0 at padding
   std::array<std::vector<double>, 3> x, v, f;   ///< m, m/s (half a step back), N (minus the internal force)
   std::array<std::vector<double>, 3> mobility;  ///< 1/mass, or 0 where a component is held
@@ -71,7 +71,7 @@ struct Mesh {
     layer = row * (cells[1] + 1);
     size = layer * (cells[2] + 1);
     auto const padded = static_cast<std::size_t>(size + width);
-    alive.assign(padded, 0);
+    active.assign(padded, 0);
     mass.assign(padded, 0);
     for (std::size_t c = 0; c < 3; ++c) {
       spacing[c] = (box.high[c] - box.low[c]) / static_cast<double>(cells[c]);
@@ -86,7 +86,7 @@ struct Mesh {
         if (at[c] > 0 && at[c] < cells[c]) mass[n] *= 2;
         begins = begins && at[c] < cells[c];
       }
-      if (begins) alive[n] = 1;
+      if (begins) active[n] = 1;
       for (auto& m : mobility) m[n] = 1 / mass[n];
     });
   }

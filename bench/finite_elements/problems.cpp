@@ -76,8 +76,8 @@ Problem twist() {
   };
   p.trace = [](Mesh const& mesh) { return std::vector{top_twist(mesh)}; };
   p.angle = true;
-  p.readings = {{"first_peak_twist", "degree", 0, Take::first_peak, 0, degree},
-                {"time_of_first_peak", "s", 0, Take::time_of_first_peak, 0, 1}};
+  p.readings = {{"first_peak_twist", "degree", 0, Statistic::first_peak, 0, degree},
+                {"time_of_first_peak", "s", 0, Statistic::time_of_first_peak, 0, 1}};
   return p;
 }
 
@@ -86,8 +86,8 @@ Problem twist_long() {
   p.name = "twist_long";
   p.about = "twisting column at the times of the figures";
   p.end = 0.25;
-  p.readings = {{"twist_at_100_ms", "degree", 0, Take::at_time, 0.1, degree},
-                {"twist_at_250_ms", "degree", 0, Take::at_time, 0.25, degree}};
+  p.readings = {{"twist_at_100_ms", "degree", 0, Statistic::at_time, 0.1, degree},
+                {"twist_at_250_ms", "degree", 0, Statistic::at_time, 0.25, degree}};
   return p;
 }
 
@@ -97,8 +97,8 @@ Problem bend() {
   p.sample = 5e-3;
   p.velocity = [](Point const& X) { return Point{10 * X[1] / 6, 0, 0}; };
   p.trace = [](Mesh const& mesh) { return std::vector{top_sway(mesh)}; };
-  p.readings = {{"tip_maximum", "m", 0, Take::first_peak, 0, 1},
-                {"time_of_tip_maximum", "s", 0, Take::time_of_first_peak, 0, 1}};
+  p.readings = {{"tip_maximum", "m", 0, Statistic::first_peak, 0, 1},
+                {"time_of_tip_maximum", "s", 0, Statistic::time_of_first_peak, 0, 1}};
   return p;
 }
 
@@ -107,7 +107,7 @@ Problem bend_long() {
   p.name = "bend_long";
   p.about = "bending column at the time of the figure";
   p.end = 1.5;
-  p.readings = {{"tip_at_1500_ms", "m", 0, Take::at_time, 1.5, 1}};
+  p.readings = {{"tip_at_1500_ms", "m", 0, Statistic::at_time, 1.5, 1}};
   return p;
 }
 
@@ -123,9 +123,9 @@ Problem tensile() {
   p.velocity = [](Point const& X) { return Point{0, 800 * X[1], 0}; };
   p.held = foot;
   p.trace = [](Mesh const& mesh) { return std::vector{height(mesh), mesh.x[1][node_at(mesh, {0.5, 1, 0.5})] - 1}; };
-  p.readings = {{"largest_height", "m", 0, Take::largest, 0, 1},
-                {"time_of_largest_height", "ms", 0, Take::time_of_largest, 0, 1e-3},
-                {"rise_of_the_top_at_0.71_ms", "m", 1, Take::at_time, 0.71e-3, 1}};
+  p.readings = {{"largest_height", "m", 0, Statistic::largest, 0, 1},
+                {"time_of_largest_height", "ms", 0, Statistic::time_of_largest, 0, 1e-3},
+                {"rise_of_the_top_at_0.71_ms", "m", 1, Statistic::at_time, 0.71e-3, 1}};
   return p;
 }
 
@@ -151,7 +151,7 @@ Problem punch() {
   p.velocity = [stamp](Point const& X) { return Point{0, stamp(X) ? -10.0 : 0.0, 0}; };
   p.held = [stamp, box = p.box](Point const& X) { return stamp(X) ? 7U : open_box(X, box); };
   p.trace = [](Mesh const& mesh) { return std::vector{mesh.x[1][node_at(mesh, {1, 0.5, 0})]}; };
-  p.readings = {{"corner_height_at_12_ms", "m", 0, Take::at_time, 0.012, 1}};
+  p.readings = {{"corner_height_at_12_ms", "m", 0, Statistic::at_time, 0.012, 1}};
   return p;
 }
 
@@ -170,7 +170,7 @@ Problem coining() {
     return stamp(X) ? 7U : (X[0] <= 0 ? 1U : 0U) | (X[1] <= 0 ? 2U : 0U) | (X[2] <= 0 ? 4U : 0U);
   };
   p.trace = [](Mesh const& mesh) { return std::vector{mesh.x[0][node_at(mesh, {0.03, 0.01, 0.005})] - 0.03}; };
-  p.readings = {{"corner_displacement", "mm", 0, Take::at_time, 0.54e-3, 1e-3}};
+  p.readings = {{"corner_displacement", "mm", 0, Statistic::at_time, 0.54e-3, 1e-3}};
   return p;
 }
 
@@ -195,7 +195,7 @@ Problem spin() {
     return std::vector{std::atan2(cross, dot)};
   };
   p.angle = true;
-  p.readings = {{"turns", "turn", 0, Take::at_time, 0.4, 2 * std::numbers::pi}};
+  p.readings = {{"turns", "turn", 0, Statistic::at_time, 0.4, 2 * std::numbers::pi}};
   return p;
 }
 
@@ -229,7 +229,7 @@ Problem swing() {
     return held;
   };
   p.trace = [](Mesh const& mesh) { return std::vector{(mesh.x[0][node_at(mesh, {1, 0, 0})] - 1) / amplitude}; };
-  p.readings = {{"displacement_of_the_corner", "1", 0, Take::at_time, 2e-3, 1}};
+  p.readings = {{"displacement_of_the_corner", "1", 0, Statistic::at_time, 2e-3, 1}};
   return p;
 }
 

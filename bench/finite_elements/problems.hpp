@@ -7,12 +7,12 @@
 namespace bricks {
 
 /// What is read off the curve of one traced number.
-enum class Take { first_peak, time_of_first_peak, largest, time_of_largest, at_time };
+enum class Statistic { first_peak, time_of_first_peak, largest, time_of_largest, at_time };
 
 struct Reading {
   std::string name, unit;
   std::size_t traced = 0;  ///< which of the traced numbers
-  Take take = Take::at_time;
+  Statistic take = Statistic::at_time;
   double time = 0;   ///< s, for at_time
   double scale = 1;  ///< of the unit in SI
 };

@@ -17,15 +17,15 @@ void Wishes::raise() {
   if (what) std::rethrow_exception(what);
 }
 
-CallObserver::CallObserver(py::function call, double every, Wishes& wishes)
-    : call_(std::move(call)), schedule_(every), each_step_(every == 0), wishes_(wishes) {}
+CallObserver::CallObserver(py::function call, double every, Wishes& conversion_requests)
+    : call_(std::move(call)), schedule_(every), each_step_(every == 0), wishes_(conversion_requests) {}
 
 CallObserver::~CallObserver() {
   py::gil_scoped_acquire const python;
   call_ = {};
 }
 
-void CallObserver::see(Formulation const&, Moment const& moment) {
+void CallObserver::observe(Formulation const&, TimeState const& moment) {
   if (!each_step_ && !schedule_.due(moment.time)) return;
   py::gil_scoped_acquire const python;
   try {
@@ -36,7 +36,7 @@ void CallObserver::see(Formulation const&, Moment const& moment) {
   }
 }
 
-void SignalObserver::see(Formulation const&, Moment const&) {
+void SignalObserver::observe(Formulation const&, TimeState const&) {
   auto const now = std::chrono::steady_clock::now();
   if (now - last_ < std::chrono::milliseconds(50)) return;
   last_ = now;
@@ -50,8 +50,8 @@ void SignalObserver::see(Formulation const&, Moment const&) {
 }
 
 SupportFunction::SupportFunction(py::function call, std::string name, std::vector<std::array<double, 3>> X,
-                                 Wishes& wishes)
-    : call_(std::move(call)), name_(std::move(name)), X_(std::move(X)), wishes_(wishes) {}
+                                 Wishes& conversion_requests)
+    : call_(std::move(call)), name_(std::move(name)), X_(std::move(X)), wishes_(conversion_requests) {}
 
 SupportFunction::~SupportFunction() {
   py::gil_scoped_acquire const python;

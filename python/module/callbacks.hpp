@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/simulation/observers.hpp"
-#include "piola/simulation/schedule.hpp"
+#include "piola/observers/output_schedule.hpp"
 #include "case.hpp"
 #include <atomic>
 #include <exception>
@@ -25,11 +25,11 @@ struct Wishes {
 /// A Python function that is called at each due time; if it returns True, the run stops there.
 class CallObserver : public Observer {
  public:
-  CallObserver(py::function call, double every, Wishes& wishes);
+  CallObserver(py::function call, double every, Wishes& conversion_requests);
   ~CallObserver() override;
   CallObserver(CallObserver const&) = delete;
   CallObserver& operator=(CallObserver const&) = delete;
-  void see(Formulation const& formulation, Moment const& moment) override;
+  void observe(Formulation const& formulation, TimeState const& moment) override;
 
  private:
   py::function call_;
@@ -41,8 +41,8 @@ class CallObserver : public Observer {
 /// Lets Ctrl-C end a run, looking about every 50 ms.
 class SignalObserver : public Observer {
  public:
-  explicit SignalObserver(Wishes& wishes) : wishes_(wishes) {}
-  void see(Formulation const& formulation, Moment const& moment) override;
+  explicit SignalObserver(Wishes& conversion_requests) : wishes_(conversion_requests) {}
+  void observe(Formulation const& formulation, TimeState const& moment) override;
 
  private:
   Wishes& wishes_;
@@ -54,7 +54,7 @@ class SignalObserver : public Observer {
 class SupportFunction {
  public:
   /// X: the points of the support [m].
-  SupportFunction(py::function call, std::string name, std::vector<std::array<double, 3>> X, Wishes& wishes);
+  SupportFunction(py::function call, std::string name, std::vector<std::array<double, 3>> X, Wishes& conversion_requests);
   ~SupportFunction();
   SupportFunction(SupportFunction const&) = delete;
   SupportFunction& operator=(SupportFunction const&) = delete;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "case.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/units.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/simulation/build.hpp"

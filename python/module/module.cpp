@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // piola._piola: the library as Python sees it. What users call stands in python/piola/.
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/version.hpp"
 #include "case.hpp"
 

@@ -21,7 +21,7 @@ std::map<std::string, double> energies(Diagnostics const& d) {
 /// Session.load with where the state stood.
 void load(Session& session, std::map<std::string, Table> const& arrays, double time, std::int64_t step, double dt,
           double first_dt) {
-  Moment at = session.moment();
+  TimeState at = session.moment();
   at.time = time;
   at.step = step;
   at.dt = dt;

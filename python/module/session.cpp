@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/input/check_case.hpp"
 #include "piola/output/field_cache.hpp"
 #include <algorithm>
@@ -57,18 +57,18 @@ Session::Session(ReadCase const& from, std::string const& folder, bool resume, b
 bool Session::advance(double until, std::int64_t steps, bool exactly) {
   if (finished_) throw py::value_error("the run is finished - make a new one");
   std::int64_t const last = steps < 0 ? std::numeric_limits<std::int64_t>::max() : run_->moment().step + steps;
-  March end;
+  LoopResult end;
   {
     py::gil_scoped_release const others_may_run;
     end = run_->advance({.time = until, .step = last, .exactly = exactly});
   }
-  if (end.ending == Ending::failed) {
+  if (end.ending == RunStatus::failed) {
     std::string const why = finish().failure;
     wishes_.raise();
     throw PhysicsError(why);
   }
   wishes_.raise();
-  return end.ending == Ending::completed && !end.paused;
+  return end.ending == RunStatus::completed && !end.paused;
 }
 
 CaseOutcome const& Session::finish() {
@@ -81,7 +81,7 @@ CaseOutcome const& Session::finish() {
 
 void Session::observe(py::function call, double every) {
   calls_.push_back(std::make_unique<CallObserver>(std::move(call), every, wishes_));
-  calls_.back()->see(*simulation_->formulation, run_->moment());
+  calls_.back()->observe(*simulation_->formulation, run_->moment());
   run_->also(*calls_.back());
   wishes_.raise();
 }
@@ -136,7 +136,7 @@ std::map<std::string, py::array_t<double>> Session::state() const {
   return arrays;
 }
 
-void Session::load(std::map<std::string, Table> const& arrays, Moment const& at) {
+void Session::load(std::map<std::string, Table> const& arrays, TimeState const& at) {
   if (written_) throw py::value_error("a run that writes results cannot take another state - make it with out=None");
   NamedState kept;
   for (auto const& [name, values] : arrays) kept.put(name, {values.data(), static_cast<std::size_t>(values.size())});

@@ -42,10 +42,10 @@ class Session {
   std::vector<py::tuple> fields() const;             ///< (name, unit, components)
   std::map<std::string, py::tuple> history() const;  ///< name -> (unit, values)
   std::map<std::string, py::array_t<double>> state() const;
-  void load(std::map<std::string, Table> const& arrays, Moment const& at);
+  void load(std::map<std::string, Table> const& arrays, TimeState const& at);
 
   Simulation const& simulation() const { return *simulation_; }
-  Moment const& moment() const { return run_->moment(); }
+  TimeState const& moment() const { return run_->moment(); }
   std::vector<std::string> take_warnings() { return warned_.take(); }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/read_file.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "support/temporary_folder.hpp"
 #include <gtest/gtest.h>
 #include <sys/stat.h>

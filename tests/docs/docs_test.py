@@ -58,7 +58,7 @@ TABLES = key_tables()
 TABLES["body.material"] = TABLES["body.material"] | names_after("material")
 TABLES["body.formulation"] = TABLES["body.formulation"] | names_after("formulation")
 FREE = {"constants", "body.define"}
-CHECKS = set(re.findall(r'"([a-z_]+)"', (ROOT / "src/piola/simulation/checks.cpp").read_text()))
+CHECKS = set(re.findall(r'"([a-z_]+)"', (ROOT / "src/piola/verification/checks.cpp").read_text()))
 FIELDS = listed("Fields of frames and pictures")
 COLUMNS = listed("Columns of history.csv") | set(re.findall(r'DiagnosticInfo\{"(\w+)"', "\n".join(
     path.read_text() for path in (ROOT / "src/piola/formulations").rglob("options.cpp"))))

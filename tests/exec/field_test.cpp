@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/exec/field.hpp"
-#include "piola/exec/view.hpp"
+#include "piola/exec/field_view.hpp"
 #include <cstdint>
 #include <gtest/gtest.h>
 #include <string>

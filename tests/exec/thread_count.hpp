@@ -12,14 +12,14 @@ inline constexpr std::array thread_counts{1, 2, 3, 7};
 /// there are.
 class Threads {
  public:
-  explicit Threads(int n) : before_(exec_host::threads()), share_(exec_host::set_least_share(1)) {
+  explicit Threads(int n) : before_(exec_host::threads()), share_(exec_host::set_min_grain_size(1)) {
     exec_host::set_threads(n);
   }
   Threads(Threads const&) = delete;
   Threads& operator=(Threads const&) = delete;
   ~Threads() {
     exec_host::set_threads(before_);
-    exec_host::set_least_share(share_);
+    exec_host::set_min_grain_size(share_);
   }
 
  private:

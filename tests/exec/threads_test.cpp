@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/exec/threads.hpp"
-#include "piola/exec/processor_quota.hpp"
+#include "piola/exec/cpu_quota.hpp"
 #include "support/temporary_folder.hpp"
 #include <cstdlib>
 #include <fstream>

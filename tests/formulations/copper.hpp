@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/materials/solids.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
 #include "formulations/small_bodies.hpp"
 
 /// The metal that tests of solids in rate form take, and what it should do.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/registry.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/units.hpp"
-#include "piola/formulations/make.hpp"
+#include "piola/formulations/make_formulation.hpp"
 #include "piola/materials/registry.hpp"
 #include <gtest/gtest.h>
 #include <set>
@@ -59,10 +59,10 @@ TEST(Formulations, RefuseWhatTheyDoNotKnow) {
     assembly.particles.cracks.resize(1);
     assembly.mirrors.resize(1);
     assembly.particles.bodies.resize(1);
-    assembly.particles.bodies[0].scattered = true;
+    assembly.particles.bodies[0].off_lattice = true;
     assembly.rigid_shapes.resize(1);
     std::string message;
-    if (info.cracks && info.mirrors && info.scattered && info.contact) continue;
+    if (info.cracks && info.mirrors && info.off_lattice && info.contact) continue;
     try {
       make_formulation(assembly);
     } catch (InputError const& error) {
@@ -70,14 +70,14 @@ TEST(Formulations, RefuseWhatTheyDoNotKnow) {
     }
     EXPECT_EQ(message.find(refusal(info, "cracks")) != std::string::npos, !info.cracks) << message;
     EXPECT_EQ(message.find(refusal(info, "mirrors")) != std::string::npos, !info.mirrors) << message;
-    EXPECT_EQ(message.find(refusal(info, "rings")) != std::string::npos, !info.scattered) << message;
+    EXPECT_EQ(message.find(refusal(info, "rings")) != std::string::npos, !info.off_lattice) << message;
     EXPECT_EQ(message.find(refusal(info, "rigid shapes")) != std::string::npos, !info.contact) << message;
   }
   EXPECT_FALSE(find_formulation("jst_sph")->cracks);
   EXPECT_TRUE(find_formulation("jst_sph")->mirrors);
   EXPECT_FALSE(find_formulation("jst_advection")->cracks);
-  EXPECT_TRUE(find_formulation("jst_sph")->scattered);
-  EXPECT_FALSE(find_formulation("taylor_sph")->scattered);
+  EXPECT_TRUE(find_formulation("jst_sph")->off_lattice);
+  EXPECT_FALSE(find_formulation("taylor_sph")->off_lattice);
   EXPECT_FALSE(find_formulation("jst_sph")->contact);
 }
 

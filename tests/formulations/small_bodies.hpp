@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/formulations/jst_sph/state.hpp"
-#include "piola/formulations/make.hpp"
+#include "piola/formulations/make_formulation.hpp"
 #include "exec/thread_count.hpp"
 #include "particles/lattices.hpp"
 #include <algorithm>
@@ -150,9 +150,9 @@ inline double largest_difference(Values const& a, Values const& b) {
 }
 
 /// Instruction sets that this program has and this processor can run.
-inline std::vector<std::string> machines() {
+inline std::vector<std::string> backends() {
   std::vector<std::string> r;
-  for (auto names = jst_sph::machine_names(); *names != nullptr; ++names) r.push_back(*names);
+  for (auto names = jst_sph::backend_names(); *names != nullptr; ++names) r.push_back(*names);
   return r;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whatever a sealed checkpoint holds, the reader returns a checkpoint or throws FileError. Without a seal it is refused
 // before HDF5 opens it.
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/output/checkpoint.hpp"
 #include "odd_file.hpp"
 

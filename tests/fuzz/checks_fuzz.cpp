@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whatever bytes a checks.toml holds, the reader returns checks or throws InputError.
-#include "piola/base/problems.hpp"
-#include "piola/simulation/verify.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/verification/verify.hpp"
 #include "odd_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whatever a sealed frame holds, the reader returns a frame that can be drawn, or throws FileError or InputError; as a
 // cloud of points it is read or refused in words.
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/drawing/picture.hpp"
 #include "piola/output/frames.hpp"
-#include "piola/output/picture.hpp"
 #include "piola/setup/cloud_file.hpp"
 #include "odd_file.hpp"
 #include <algorithm>

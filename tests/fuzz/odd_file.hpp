@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/output/seal.hpp"
+#include "piola/output/checksum_trailer.hpp"
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -41,7 +41,7 @@ class ScratchFile {
   void seal() const {
     std::ifstream in(path_, std::ios::binary);
     std::string const text{std::istreambuf_iterator<char>(in), {}};
-    std::ofstream(path_, std::ios::binary | std::ios::app) << seal_of(std::as_bytes(std::span(text)));
+    std::ofstream(path_, std::ios::binary | std::ios::app) << checksum_trailer_of(std::as_bytes(std::span(text)));
   }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/base/child.hpp"
+#include "piola/base/child_process.hpp"
 #include "piola/math/hash.hpp"
 #include "geometry/mesh_shapes.hpp"
 #include <cstdlib>
@@ -95,12 +95,12 @@ struct Count {
 
 /// Many files in one child, where the reader has no child of its own; empty if it did not survive them.
 std::optional<Count> outcomes(std::uint64_t first, std::uint64_t end) {
-  ChildAnswer const answer = done_by_child(
+  ChildAnswer const answer = run_in_child_process(
       [&] {
         std::string letters;
         for (std::uint64_t k = first; k < end; ++k) {
           Mutant m = mutant(k);
-          m.options.patience = 0;
+          m.options.shutdown_timeout = 0;
           letters += outcome(m) == "read" ? 'r' : '-';
         }
         return letters;

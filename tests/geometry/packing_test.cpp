@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/packing.hpp"
 #include "piola/exec/threads.hpp"
-#include "piola/geometry/combined.hpp"
-#include "piola/geometry/measure.hpp"
+#include "piola/geometry/boolean_solid.hpp"
+#include "piola/geometry/patch_measures.hpp"
 #include "piola/geometry/primitives.hpp"
 #include <algorithm>
 #include <array>
@@ -60,21 +60,21 @@ TEST(Packing, BarIsAsDenseEverywhereAlongIt) {
 }
 
 TEST(Packing, PlateWithAHole) {
-  auto const plate = combined(
-      Combination::cut, {box({{-0.5, -0.5, 0}}, {{0.5, 0.5, 0.3}}, 3), cylinder({{0, 0, -1}}, {{0, 0, 1}}, 3, 0.2, 0)});
+  auto const plate = combined(BooleanOperation::cut, {box({{-0.5, -0.5, 0}}, {{0.5, 0.5, 0.3}}, 3),
+                                                      cylinder({{0, 0, -1}}, {{0, 0, 1}}, 3, 0.2, 0)});
   expect_good(*plate, 0.06, 0.9, 1.1);
 }
 
 TEST(Packing, IsTheSameForAnyNumberOfThreads) {
   auto const solid = torus({}, {{0.6, 0, 0.8}}, 1, 0.3);
   std::vector<Packing> packings;
-  int const before = exec_host::threads(), least = exec_host::set_least_share(1);
+  int const before = exec_host::threads(), least = exec_host::set_min_grain_size(1);
   for (int const threads : {1, 2, 3, 7}) {
     exec_host::set_threads(threads);
     packings.push_back(packed(*solid, 0.1));
   }
   exec_host::set_threads(before);
-  exec_host::set_least_share(least);
+  exec_host::set_min_grain_size(least);
   for (Packing const& other : packings) EXPECT_EQ(other.X, packings.front().X);
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/geometry/combined.hpp"
+#include "piola/geometry/boolean_solid.hpp"
+#include "piola/geometry/extruded_revolved.hpp"
 #include "piola/geometry/level_set.hpp"
-#include "piola/geometry/measure.hpp"
-#include "piola/geometry/placed.hpp"
+#include "piola/geometry/patch_measures.hpp"
 #include "piola/geometry/primitives.hpp"
-#include "piola/geometry/swept.hpp"
+#include "piola/geometry/transformed_solid.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -136,12 +136,12 @@ TEST(Solids, GridVolumesAgreeWithExactOnes) {
   // Nothing but the distance is known of a union of one.
   for (Known const& known : known_solids()) {
     SCOPED_TRACE(known.name);
-    EXPECT_NEAR(volume_of(*combined(Combination::join, {known.solid}), 0.1) / known.volume, 1, 1e-3);
+    EXPECT_NEAR(volume_of(*combined(BooleanOperation::join, {known.solid}), 0.1) / known.volume, 1, 1e-3);
   }
 }
 
 TEST(CombinedSolids, PlateWithAHole) {
-  auto const plate = combined(Combination::cut,
+  auto const plate = combined(BooleanOperation::cut,
                               {box({{-1, -1, 0}}, {{1, 1, 0.5}}, 3), cylinder({{0, 0, -1}}, {{0, 0, 1}}, 3, 0.5, 0)});
   EXPECT_NEAR(volume_of(*plate, 0.1), 2 - 0.125 * pi, 2e-4);
   EXPECT_NEAR(plate->at({{0.6, 0, 0.25}}).distance, -0.1, 1e-12);
@@ -160,7 +160,8 @@ TEST(CombinedSolids, PlateWithAHole) {
 }
 
 TEST(CombinedSolids, PartsThatShareAFaceAreOne) {
-  auto const both = combined(Combination::join, {box({{0, 0, 0}}, {{1, 1, 1}}, 3), box({{1, 0, 0}}, {{2, 1, 1}}, 3)});
+  auto const both =
+      combined(BooleanOperation::join, {box({{0, 0, 0}}, {{1, 1, 1}}, 3), box({{1, 0, 0}}, {{2, 1, 1}}, 3)});
   double area = 0;
   for (PatchFacts const& patch : patch_facts(*both, 0.05)) {
     area += patch.area;
@@ -172,7 +173,7 @@ TEST(CombinedSolids, PartsThatShareAFaceAreOne) {
 }
 
 TEST(CombinedSolids, HalfSpacesEndInOthers) {
-  auto const half = combined(Combination::common, {ball({}, 1, 0, 3), half_space({}, {{0, 0, 1}}, 3)});
+  auto const half = combined(BooleanOperation::common, {ball({}, 1, 0, 3), half_space({}, {{0, 0, 1}}, 3)});
   EXPECT_NEAR(volume_of(*half, 0.1), 2 * pi / 3, 1e-3);
   double flat = 0;
   for (PatchFacts const& patch : patch_facts(*half, 0.05))

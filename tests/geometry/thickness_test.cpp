@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/thickness.hpp"
-#include "piola/geometry/combined.hpp"
+#include "piola/geometry/boolean_solid.hpp"
 #include "piola/geometry/primitives.hpp"
 #include "exec/thread_count.hpp"
 #include <gtest/gtest.h>
@@ -33,13 +33,13 @@ TEST(Thickness, OfASlenderTipEndsWithTheLastPiece) {
 
 TEST(Thickness, IsThatOfTheThinnestPart) {
   SolidPtr const plate = box({}, {{2, 2, 0.5}}, 3), rib = box({{0.9, 0, 0.5}}, {{1, 2, 1.5}}, 3);
-  auto const found = thinnest(*combined(Combination::join, {plate, rib}), 0.1);
+  auto const found = thinnest(*combined(BooleanOperation::join, {plate, rib}), 0.1);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->thickness, 0.1, 1e-9);
   EXPECT_NEAR(found->X[0], 0.95, 1e-9);
   // What a bore leaves of a plate: a web of 0.06.
   SolidPtr const bored =
-      combined(Combination::cut, {box({}, {{2, 2, 0.5}}, 3), cylinder({{1, 0.46, -1}}, {{0, 0, 1}}, 3, 0.4, 0)});
+      combined(BooleanOperation::cut, {box({}, {{2, 2, 0.5}}, 3), cylinder({{1, 0.46, -1}}, {{0, 0, 1}}, 3, 0.4, 0)});
   EXPECT_NEAR(thickness(bored, 0.05), 0.06, 0.005);
 }
 

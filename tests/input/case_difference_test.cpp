@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/case_difference.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "support/sample_case.hpp"
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include "piola/input/case_files.hpp"
 #include "piola/input/case_keys.hpp"
 #include "piola/input/read_case.hpp"
-#include "piola/output/files.hpp"
+#include "piola/output/atomic_file.hpp"
 #include "support/temporary_folder.hpp"
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ TEST(Identity, IsOfEverythingThatResultsDependOn) {
   EXPECT_EQ(with({}).run, first.run);
   EXPECT_EQ(with({"run.threads=1"}).run, first.run);
   EXPECT_NE(with({"run.end=\"21 us\""}).run, first.run);
-  bool const is_scalar = first.machine.starts_with("scalar");
+  bool const is_scalar = first.backend.starts_with("scalar");
   EXPECT_EQ(with({"run.machine=scalar"}).run == first.run, is_scalar);
   write_whole_file(folder / "c.toml", std::string("# comment\n") + cloud_case);
   EXPECT_EQ(with({}).run, first.run);

@@ -27,7 +27,7 @@ TEST(ReadCase, TheSampleIsReadInSiUnits) {
   EXPECT_DOUBLE_EQ(spec.run.end, 0.5);
   EXPECT_TRUE(std::isnan(spec.run.cfl));
   EXPECT_EQ(spec.run.threads, 0);
-  EXPECT_EQ(spec.run.machine, "auto");
+  EXPECT_EQ(spec.run.backend, "auto");
   ASSERT_EQ(spec.bodies.size(), 1u);
   BodySpec const& body = spec.bodies[0];
   EXPECT_EQ(body.name, "column");
@@ -93,7 +93,7 @@ reference = "L*t"
   EXPECT_EQ(spec.probes[1].quantities, std::vector<std::string>{"twist_angle"});
   EXPECT_EQ(spec.probes[2].quantities, std::vector<std::string>{"extent"});
   EXPECT_EQ(spec.probes[2].axis, 1);
-  EXPECT_EQ(spec.quantities[0].take, QuantitySpec::Take::first_peak);
+  EXPECT_EQ(spec.quantities[0].take, QuantitySpec::Statistic::first_peak);
   EXPECT_EQ(spec.quantities[0].unit, "degree");
   EXPECT_DOUBLE_EQ(spec.quantities[1].threshold, 2e6);
   EXPECT_EQ(spec.quantities[1].unit, "ms");
@@ -190,7 +190,7 @@ TEST(ReadCase, RunSettingsAreRead) {
   EXPECT_DOUBLE_EQ(spec.run.max_step, 1e-5);
   EXPECT_DOUBLE_EQ(spec.run.min_step, 1e-9);
   EXPECT_EQ(spec.run.threads, 2);
-  EXPECT_EQ(spec.run.machine, "v3");
+  EXPECT_EQ(spec.run.backend, "v3");
   EXPECT_EQ(read(sample_with("end = \"0.5 s\"", "end = 0.5\nthreads = \"auto\"")).run.threads, 0);
 }
 

@@ -89,9 +89,9 @@ TEST(ReadContact, LawsHaveTheirNumbers) {
   EXPECT_EQ(kernel.scale, 2);
   EXPECT_EQ(kernel.closing_speed, 3000);
   EXPECT_EQ(kernel.exponent, 6);
-  ContactSpec const printed = contact("law = \"printed\"\nstiffness = \"2 MPa/mm^2\"", 2);
-  EXPECT_EQ(printed.law, Law::printed);
-  EXPECT_DOUBLE_EQ(printed.stiffness, 2e12);
+  ContactSpec const as_published = contact("law = \"printed\"\nstiffness = \"2 MPa/mm^2\"", 2);
+  EXPECT_EQ(as_published.law, Law::as_published);
+  EXPECT_DOUBLE_EQ(as_published.stiffness, 2e12);
   EXPECT_EQ(contact("law = \"printed\"\nstiffness = 1e16").stiffness, 1e16);
 }
 
@@ -110,7 +110,7 @@ struct Block {
     spec.bodies.push_back(body);
   }
 
-  std::string complaint(RigidSpec const& shape) {
+  std::string repair_note(RigidSpec const& shape) {
     spec.rigids = {shape};
     Problems problems;
     check_rigid(spec, particles, problems);
@@ -120,40 +120,41 @@ struct Block {
 
 TEST(CheckRigid, ShapesMayTouchButNotHoldParticles) {
   Block plate(2), block(3);
-  EXPECT_EQ(plate.complaint(rigid("plane = { point = [0, 0], normal = [1, 0] }", 2)), "");
+  EXPECT_EQ(plate.repair_note(rigid("plane = { point = [0, 0], normal = [1, 0] }", 2)), "");
   EXPECT_EQ(
-      plate.complaint(rigid("plane = { point = [0.1, 0], normal = [1, 0] }", 2)),
+      plate.repair_note(rigid("plane = { point = [0.1, 0], normal = [1, 0] }", 2)),
       "case.toml:2:9: the rigid shape \"wall\" holds 5 particles of body \"block\" at the start, the first at (0, "
       "0) m (allowed: none) - move the shape or the body");
-  EXPECT_EQ(plate.complaint(rigid("sphere = { centre = [2, 1], radius = 1 }", 2)), "");
-  EXPECT_NE(plate.complaint(rigid("sphere = { centre = [2, 1], radius = 1.02 }", 2)).find(" 1 particle of"),
+  EXPECT_EQ(plate.repair_note(rigid("sphere = { centre = [2, 1], radius = 1 }", 2)), "");
+  EXPECT_NE(plate.repair_note(rigid("sphere = { centre = [2, 1], radius = 1.02 }", 2)).find(" 1 particle of"),
             std::string::npos);
-  EXPECT_EQ(plate.complaint(rigid("box = { min = [1, -1], max = [2, 2] }", 2)), "");
-  EXPECT_NE(plate.complaint(rigid("box = { min = [0.8, 0.1], max = [2, 0.9] }", 2)).find(" 3 particles of"),
+  EXPECT_EQ(plate.repair_note(rigid("box = { min = [1, -1], max = [2, 2] }", 2)), "");
+  EXPECT_NE(plate.repair_note(rigid("box = { min = [0.8, 0.1], max = [2, 0.9] }", 2)).find(" 3 particles of"),
             std::string::npos);
-  EXPECT_EQ(block.complaint(rigid("box = { min = [0, 0, 1], max = [1, 1, 2] }")), "");
-  EXPECT_NE(block.complaint(rigid("box = { min = [-1, -1, 0.8], max = [2, 2, 2] }")).find(" 25 particles of"),
+  EXPECT_EQ(block.repair_note(rigid("box = { min = [0, 0, 1], max = [1, 1, 2] }")), "");
+  EXPECT_NE(block.repair_note(rigid("box = { min = [-1, -1, 0.8], max = [2, 2, 2] }")).find(" 25 particles of"),
             std::string::npos);
   // Along x through the middle: the axial row of five, and four rows more at 0.25 from it.
   std::string const bar = "axis = [1, 0, 0], length = 0.9, radius = ";
-  EXPECT_NE(block.complaint(rigid("cylinder = { centre = [0.5, 0.5, 0.5], " + bar + "0.2 }")).find(" 3 particles of"),
+  EXPECT_NE(block.repair_note(rigid("cylinder = { centre = [0.5, 0.5, 0.5], " + bar + "0.2 }")).find(" 3 particles of"),
             std::string::npos);
-  EXPECT_NE(block.complaint(rigid("cylinder = { centre = [0.5, 0.5, 0.5], " + bar + "0.3 }")).find(" 15 particles of"),
-            std::string::npos);
-  EXPECT_EQ(block.complaint(rigid("cylinder = { centre = [0.5, 2, 0.5], " + bar + "1 }")), "");
+  EXPECT_NE(
+      block.repair_note(rigid("cylinder = { centre = [0.5, 0.5, 0.5], " + bar + "0.3 }")).find(" 15 particles of"),
+      std::string::npos);
+  EXPECT_EQ(block.repair_note(rigid("cylinder = { centre = [0.5, 2, 0.5], " + bar + "1 }")), "");
 }
 
 TEST(CheckRigid, BodiesStandWhereTheirDisplacementPutsThem) {
   Block plate(2);
   plate.spec.bodies[0].initial_displacement = {Expression("-0.3"), Expression("1"), Expression()};
-  EXPECT_EQ(plate.complaint(rigid("plane = { point = [-0.1, 0], normal = [1, 0] }", 2)),
+  EXPECT_EQ(plate.repair_note(rigid("plane = { point = [-0.1, 0], normal = [1, 0] }", 2)),
             "case.toml:2:9: the rigid shape \"wall\" holds 5 particles of body \"block\" at the start, the first at "
             "(-0.3, 1) m (allowed: none) - move the shape or the body");
 }
 
 TEST(CheckRigid, VelocitiesMustBeFiniteAtTheStart) {
   Block plate(2);
-  EXPECT_EQ(plate.complaint(rigid("plane = { point = [0, 0], normal = [1, 0] }\nvelocity = [0, \"1/t\"]", 2)),
+  EXPECT_EQ(plate.repair_note(rigid("plane = { point = [0, 0], normal = [1, 0] }\nvelocity = [0, \"1/t\"]", 2)),
             "case.toml:3:12: rigid.velocity[1], formula \"1/t\" is inf at t = 0 (allowed: a finite number)");
 }
 

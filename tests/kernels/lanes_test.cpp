@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Kernels on packs of lanes against the same on one double. This file is a machine of its own.
-#undef PIOLA_MACHINE
-#undef PIOLA_MACHINE_IS_HOST
-#define PIOLA_MACHINE test_packs
-#define PIOLA_MACHINE_IS_NATIVE 1
+#undef PIOLA_BACKEND
+#undef PIOLA_BACKEND_IS_HOST
+#define PIOLA_BACKEND test_packs
+#define PIOLA_BACKEND_IS_NATIVE 1
 #include "piola/kernels/cubic_spline.hpp"
 #include "piola/kernels/wendland_c2.hpp"
 #include <gtest/gtest.h>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 namespace {
 
 /// f of a pack whose lanes lie on different sides of the kernel's knots, beside f of each lane alone. A compiler may

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Laws and functions on packs of lanes against the same on one double. This file is a machine of its own.
-#undef PIOLA_MACHINE
-#undef PIOLA_MACHINE_IS_HOST
-#define PIOLA_MACHINE test_packs
-#define PIOLA_MACHINE_IS_NATIVE 1
+#undef PIOLA_BACKEND
+#undef PIOLA_BACKEND_IS_HOST
+#define PIOLA_BACKEND test_packs
+#define PIOLA_BACKEND_IS_NATIVE 1
 #include "piola/materials/laws.hpp"
 #include "materials/law_types.hpp"
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <random>
 #include <string>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 namespace {
 
 /// Every lane another F, J between 0.3 and 3.

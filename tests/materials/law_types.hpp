@@ -5,7 +5,7 @@
 #include <string>
 
 /// The registered laws as types of a typed test, and their names.
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 template <class List>
 struct TypesOf;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/materials/library.hpp"
-#include "piola/materials/solids.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <set>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/materials/registry.hpp"
-#include "piola/materials/solids.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
 #include <gtest/gtest.h>
 #include <string_view>
 
@@ -48,7 +48,7 @@ TEST(Solids, AreEachPickedByTheirNumberAndTheWordOfTheirEquationOfState) {
   for (LawInfo const& law : laws()) {
     MaterialParameters material;
     material.law = law.index;
-    EXPECT_EQ(is_solid(material), law.rate_form);
+    EXPECT_EQ(is_hypoelastic(material), law.rate_form);
     for (double& value : material.value) value = 0.25;
     auto const known = law.rate_form ? static_cast<int>(law.choices[0].allowed.size()) : 0;
     for (int eos = 0; eos < 6; ++eos) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/materials/solids.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <stdexcept>
@@ -8,7 +8,7 @@
 #include <utility>
 
 /// Solids in rate form as types of a typed test, and metals made of them.
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 template <class Strength, class Eos>
 struct SolidCase {
@@ -22,9 +22,9 @@ template <class... A>
 struct Joined<::testing::Types<A...>> {
   using type = ::testing::Types<A...>;
 };
-template <class... A, class... B, class... Rest>
-struct Joined<::testing::Types<A...>, ::testing::Types<B...>, Rest...> : Joined<::testing::Types<A..., B...>, Rest...> {
-};
+template <class... A, class... B, class... RelaxationStatus>
+struct Joined<::testing::Types<A...>, ::testing::Types<B...>, RelaxationStatus...>
+    : Joined<::testing::Types<A..., B...>, RelaxationStatus...> {};
 
 template <class Strength, class Eos>
 struct OneCase {

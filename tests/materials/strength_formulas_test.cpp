@@ -197,10 +197,10 @@ TEST(JonesWilkinsLee, FulfilsTheConditionsOfChapmanAndJouguet) {
   }
 }
 
-double const scattered[] = {10, 0, 1};
+double const off_lattice[] = {10, 0, 1};
 
 TEST(WeibullScatter, HasHalfBelowOneAndTheSpreadOfItsModulus) {
-  Scatter const scatter(scattered);
+  Scatter const scatter(off_lattice);
   int below = 0, weak = 0, n = 20000;
   for (int i = 0; i < n; ++i) {
     double const x = scatter.factor(static_cast<std::uint64_t>(i), 1e-9);
@@ -230,9 +230,9 @@ TEST(WeibullScatter, IsThatOfTheBodyHoweverFineItsParticles) {
 
 TEST(WeibullScatter, DependsOnSeedAndParticleAlone) {
   double const other_seed[] = {10, 0, 2}, none[] = {unbounded, 0, 1};
-  EXPECT_EQ(Scatter(scattered).factor(7, 1e-9), Scatter(scattered).factor(7, 2e-9));  // of its own volume
-  EXPECT_NE(Scatter(scattered).factor(7, 1e-9), Scatter(other_seed).factor(7, 1e-9));
-  EXPECT_NE(Scatter(scattered).factor(7, 1e-9), Scatter(scattered).factor(8, 1e-9));
+  EXPECT_EQ(Scatter(off_lattice).factor(7, 1e-9), Scatter(off_lattice).factor(7, 2e-9));  // of its own volume
+  EXPECT_NE(Scatter(off_lattice).factor(7, 1e-9), Scatter(other_seed).factor(7, 1e-9));
+  EXPECT_NE(Scatter(off_lattice).factor(7, 1e-9), Scatter(off_lattice).factor(8, 1e-9));
   EXPECT_EQ(Scatter(none).factor(7, 1e-9), 1);
 }
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Packs of lanes against one double, for what is not a number. This file is a machine of its own; that the machines of
 // the program do the same is tested through their reductions (formulations/jst_sph/machines_test.cpp).
-#undef PIOLA_MACHINE
-#undef PIOLA_MACHINE_IS_HOST
-#define PIOLA_MACHINE test_extremes
-#define PIOLA_MACHINE_IS_NATIVE 1
+#undef PIOLA_BACKEND
+#undef PIOLA_BACKEND_IS_HOST
+#define PIOLA_BACKEND test_extremes
+#define PIOLA_BACKEND_IS_NATIVE 1
 #include "piola/math/lanes.hpp"
 #include <array>
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();

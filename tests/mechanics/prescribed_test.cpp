@@ -90,13 +90,13 @@ TEST(Speed, IsTheVelocityAlongADirection) {
 }
 
 TEST(StepsBeforeARelease, EndOnItAndAreAlike) {
-  EXPECT_EQ(up_to_release(1, std::numeric_limits<double>::infinity()), 1);
-  EXPECT_EQ(up_to_release(1, 100), 1) << "far away: nothing changes";
+  EXPECT_EQ(clip_step_to_end_time(1, std::numeric_limits<double>::infinity()), 1);
+  EXPECT_EQ(clip_step_to_end_time(1, 100), 1) << "far away: nothing changes";
   for (double const rest : {0.3, 1.0, 1.5, 2.01, 7.7, 19.5}) {
     double left = rest, smallest = 1, largest = 0;
     int steps = 0;
     for (; left > 1e-9 && steps < 100; ++steps) {
-      double const dt = up_to_release(1, left);
+      double const dt = clip_step_to_end_time(1, left);
       smallest = std::min(smallest, dt);
       largest = std::max(largest, dt);
       left -= dt;
@@ -108,8 +108,8 @@ TEST(StepsBeforeARelease, EndOnItAndAreAlike) {
 }
 
 TEST(StepsBeforeARelease, AreNeverOfNoLength) {
-  EXPECT_GT(up_to_release(1, 0), 0);
-  EXPECT_GT(up_to_release(1, 1e-12), 0);
+  EXPECT_GT(clip_step_to_end_time(1, 0), 0);
+  EXPECT_GT(clip_step_to_end_time(1, 1e-12), 0);
 }
 
 TEST(HeldDirections, OfRowsTakeWhatThoseBeforeLeaveFree) {
@@ -126,7 +126,7 @@ TEST(HeldDirections, MoveAsTheirRowsAsk) {
   std::vector<Direction> const rows{{1, 0, 0}, {0.6, 0.8, 0}, {0.48, 0.36, 0.8}};
   std::array const asked{2.0, -1.0, 5.0};
   Direction v{};
-  for (HeldAlong const& along : hold_along(rows)) {
+  for (PrescribedAxis const& along : hold_along(rows)) {
     double const speed = along.speed([&](std::size_t row) { return asked[row]; });
     for (std::size_t c = 0; c < 3; ++c) v[c] += speed * along.direction[c];
   }
@@ -138,9 +138,9 @@ TEST(Release, TheNextIsTheFirstAfterATimeOfAllThatEnd) {
   supports[0].until = 3;
   std::vector<Load> loads(2);
   loads[1].until = 2;
-  EXPECT_EQ(next_release(0, supports, loads), 2);
-  EXPECT_EQ(next_release(2, supports, loads), 3);
-  EXPECT_EQ(next_release(3, supports, loads), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(next_end_time(0, supports, loads), 2);
+  EXPECT_EQ(next_end_time(2, supports, loads), 3);
+  EXPECT_EQ(next_end_time(3, supports, loads), std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

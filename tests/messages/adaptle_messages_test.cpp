@@ -142,7 +142,7 @@ TEST(AdaptleMessages, SupportsAreAlongAxes) {
 
 TEST(AdaptleMessages, UnknownMachinesListThoseThatThereAre) {
   Assembly a = two_boxes();
-  a.machine = "v9";
+  a.backend = "v9";
   EXPECT_TRUE(refusal(a).starts_with("machine 'v9' is unknown or not usable on this processor (usable: auto, "));
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a user is told about a shape that cannot be.
 #include "piola/input/read_case.hpp"
-#include "piola/output/files.hpp"
+#include "piola/output/atomic_file.hpp"
+#include "piola/setup/packed_bodies.hpp"
 #include "piola/setup/packing_file.hpp"
-#include "piola/setup/solid_bodies.hpp"
 #include "support/sample_case.hpp"
 #include "support/temporary_folder.hpp"
 #include <gtest/gtest.h>

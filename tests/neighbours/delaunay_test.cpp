@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/base/problems.hpp"
-#include "piola/neighbours/cells.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/neighbours/delaunay_hull.hpp"
+#include "piola/neighbours/mesh_cells.hpp"
 #include "piola/neighbours/simplex.hpp"
 #include "neighbours/cell_checks.hpp"
 #include <limits>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/neighbours/reference_pairs.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "exec/thread_count.hpp"
 #include "math/random.hpp"
 #include "neighbours/decode.hpp"

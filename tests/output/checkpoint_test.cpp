@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/checkpoint.hpp"
-#include "piola/base/problems.hpp"
-#include "piola/output/files.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/output/atomic_file.hpp"
 #include "support/temporary_folder.hpp"
 #include <cmath>
 #include <fstream>
@@ -19,7 +19,7 @@ Checkpoint sample(std::int64_t step) {
   c.cut_to_end = true;
   c.wall_seconds = 7;
   c.version = "0.1.0";
-  c.machine = "v3 of a processor with v4";
+  c.backend = "v3 of a processor with v4";
   c.source = "title = \"a\"\n";
   c.state.put("u", std::array{1.0, -0.0, 1e-310, 1.0 / 7});
   c.state.put("body0/F", std::array{2.0});
@@ -54,7 +54,7 @@ TEST(Checkpoint, GivesBackEveryBit) {
   EXPECT_TRUE(back.cut_to_end);
   EXPECT_EQ(back.source, c.source);
   EXPECT_EQ(back.version, c.version);
-  EXPECT_EQ(back.machine, c.machine);
+  EXPECT_EQ(back.backend, c.backend);
   EXPECT_EQ(back.state.arrays(), c.state.arrays());
   EXPECT_TRUE(std::signbit(back.state.all("u")[1]));
   EXPECT_EQ(back.observers.arrays(), c.observers.arrays());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/folder_lock.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "support/temporary_folder.hpp"
 #include <csignal>
 #include <gtest/gtest.h>

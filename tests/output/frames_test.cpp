@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/frames.hpp"
-#include "piola/base/problems.hpp"
-#include "piola/output/files.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/output/atomic_file.hpp"
 #include "piola/output/frame_reader.hpp"
 #include "piola/output/hdf5.hpp"
 #include "support/fake_formulation.hpp"
@@ -174,7 +174,7 @@ TEST(Files, AreNotReadBeyondWhatIsAllowed) {
 }
 
 TEST(Files, SayThatTheDiskIsFull) {
-  std::string const text = cannot_write("results/frames/000003.hdf", ENOSPC);
+  std::string const text = write_error_text("results/frames/000003.hdf", ENOSPC);
   EXPECT_EQ(text,
             "results/frames/000003.hdf: cannot be written, No space left on device - free some space or give another "
             "folder with --out; "

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files that are sealed but hold something else than the reader asks for, as another program could write them.
 #include "piola/output/hdf5.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/output/checksum_trailer.hpp"
+#include "piola/output/collective_table_writer.hpp"
 #include "piola/output/frames.hpp"
-#include "piola/output/row_writer.hpp"
-#include "piola/output/seal.hpp"
 #include "support/fake_formulation.hpp"
 #include "support/temporary_folder.hpp"
 #include <csignal>
@@ -21,7 +21,7 @@ using hdf5::Handle;
 
 void seal_file(std::filesystem::path const& path) {
   std::string const text = testing::text_of(path);
-  std::ofstream(path, std::ios::binary | std::ios::app) << seal_of(std::as_bytes(std::span(text)));
+  std::ofstream(path, std::ios::binary | std::ios::app) << checksum_trailer_of(std::as_bytes(std::span(text)));
 }
 
 /// A file made with the library itself; `fill` writes what it likes.
@@ -69,7 +69,7 @@ int write_under_every_limit(std::filesystem::path const& path) {
     hdf5::Writer file(path);
     file.group("/state");
     for (char const* name : {"/state/a", "/state/b"}) file.dataset<double>(name, values);
-    RowWriter rows(&file);
+    CollectiveTableWriter rows(&file);
     rows.put<double>("/state/c", {.count = 1000, .columns = 5}, values, hdf5::Storage::compressed);
     rows.put<double>("/state/d", {.count = 5000}, values, hdf5::Storage::sequence);
     rows.end();
@@ -185,7 +185,8 @@ TEST(Hdf5Reader, OpensNothingThatIsNotSealed) {
   testing::TemporaryFolder const folder;
   make_file(folder / "a.h5", [](hid_t) {});
   EXPECT_EQ(complaint_of([&] { hdf5::Reader{folder / "a.h5"}; }), "");
-  std::filesystem::resize_file(folder / "a.h5", std::filesystem::file_size(folder / "a.h5") - seal_of({}).size());
+  std::filesystem::resize_file(folder / "a.h5",
+                               std::filesystem::file_size(folder / "a.h5") - checksum_trailer_of({}).size());
   EXPECT_COMPLAINT(hdf5::Reader{folder / "a.h5"}, "does not end with its check sum");
   EXPECT_COMPLAINT(hdf5::Reader{folder / "absent.h5"}, "cannot be read");
   EXPECT_COMPLAINT(hdf5::Reader{folder.path()}, "cannot be read");
@@ -203,7 +204,7 @@ std::string complaint_of_frame(std::filesystem::path const& folder, std::functio
   writer.write(0, cache);
   auto const path = folder / "frames/000000.hdf";
   std::string const text = testing::text_of(path);
-  std::ofstream(path, std::ios::binary) << text.substr(0, text.size() - seal_of({}).size());
+  std::ofstream(path, std::ios::binary) << text.substr(0, text.size() - checksum_trailer_of({}).size());
   {
     Handle const file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, "the frame");
     change(file.id());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/history.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "support/temporary_folder.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
@@ -80,7 +80,7 @@ TEST(History, IsContinuedWithoutComplaintWhereTheCheckpointLeftIt) {
   testing::TemporaryFolder const folder;
   HistoryMark const mark = written(folder / "history.csv");
   HistoryFile file(folder / "history.csv", columns, 0.2, mark);
-  EXPECT_EQ(file.complaint(), "");
+  EXPECT_EQ(file.repair_note(), "");
   EXPECT_EQ(file.mark().bytes, mark.bytes);
   EXPECT_EQ(file.mark().check_sum, mark.check_sum);
   EXPECT_EQ(testing::text_of(folder / "history.csv"), "time,energy\n0,0\n0.1,0.2\n0.2,0.4\n");
@@ -93,14 +93,14 @@ TEST(History, TellsOfRowsThatAreMissingOrWereChanged) {
   HistoryMark const mark = written(folder / "history.csv");
   std::ofstream(folder / "history.csv") << "time,energy\n0,0\n0.2,0.4\n";
   EXPECT_NE(HistoryFile(folder / "history.csv", columns, 0.2, mark)
-                .complaint()
+                .repair_note()
                 .find("history.csv: 2 rows up to t = 0.2 s where the checkpoint counts on 3; rows are missing"),
             std::string::npos);
   std::ofstream(folder / "history.csv") << "time,energy\n0,0\n0.1,0.2\n0.2,0.5\n";
-  EXPECT_NE(HistoryFile(folder / "history.csv", columns, 0.2, mark).complaint(), "");
+  EXPECT_NE(HistoryFile(folder / "history.csv", columns, 0.2, mark).repair_note(), "");
   std::filesystem::remove(folder / "history.csv");
   HistoryFile const anew(folder / "history.csv", columns, 0.2, mark);
-  EXPECT_NE(anew.complaint().find("the file was missing and begins anew"), std::string::npos) << anew.complaint();
+  EXPECT_NE(anew.repair_note().find("the file was missing and begins anew"), std::string::npos) << anew.repair_note();
   EXPECT_EQ(testing::text_of(folder / "history.csv"), "time,energy\n");
 }
 

@@ -70,7 +70,7 @@ class Elements(html.parser.HTMLParser):
 
 
 def halves(text):
-    """Numbers from folded differences, as encode_numbers of src/piola/report/frame_code.cpp packs them; below 2^32."""
+    """Numbers from folded differences, as encode_numbers of src/piola/report/frame_codec.cpp packs them; below 2^32."""
     packed = zlib.decompress(base64.b64decode(text))
     count, numbers = len(packed) // 4, []
     for at in (0, 2 * count):

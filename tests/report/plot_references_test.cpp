@@ -7,7 +7,7 @@
 namespace piola::report {
 namespace {
 
-QuantitySpec quantity(std::string name, std::string column, QuantitySpec::Take take) {
+QuantitySpec quantity(std::string name, std::string column, QuantitySpec::Statistic take) {
   QuantitySpec q;
   q.name = std::move(name);
   q.column = std::move(column);
@@ -28,10 +28,10 @@ VerificationRow row(std::string quantity, double reference, std::string unit, st
 RunFolder run() {
   RunFolder run;
   run.spec.emplace();
-  run.spec->quantities = {quantity("peak", "top.twist_angle", QuantitySpec::Take::maximum),
-                          quantity("when", "top.twist_angle", QuantitySpec::Take::time_of_maximum),
-                          quantity("change", "top.twist_angle", QuantitySpec::Take::change),
-                          quantity("other", "kinetic_energy", QuantitySpec::Take::maximum)};
+  run.spec->quantities = {quantity("peak", "top.twist_angle", QuantitySpec::Statistic::maximum),
+                          quantity("when", "top.twist_angle", QuantitySpec::Statistic::time_of_maximum),
+                          quantity("change", "top.twist_angle", QuantitySpec::Statistic::change),
+                          quantity("other", "kinetic_energy", QuantitySpec::Statistic::maximum)};
   return run;
 }
 
@@ -55,9 +55,9 @@ TEST(PlotReferences, AreLinesAcrossAndUpright) {
 
 TEST(PlotReferences, AreRingsAtTimesAndCurvesOfFormulas) {
   RunFolder with = run();
-  with.spec->quantities.push_back(quantity("then", "top.twist_angle", QuantitySpec::Take::at_time));
+  with.spec->quantities.push_back(quantity("then", "top.twist_angle", QuantitySpec::Statistic::at_time));
   with.spec->quantities.back().time = 0.05;
-  with.spec->quantities.push_back(quantity("off", "top.twist_angle", QuantitySpec::Take::relative_error));
+  with.spec->quantities.push_back(quantity("off", "top.twist_angle", QuantitySpec::Statistic::relative_error));
   with.spec->quantities.back().reference = Expression("3 * t");
   with.spec->quantities.back().from = 0.1;
   Plot p = plot();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/report.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/output/frames.hpp"
 #include "piola/report/page.hpp"
-#include "piola/report/plan.hpp"
+#include "piola/report/page_budget.hpp"
 #include "piola/simulation/run_case.hpp"
 #include "support/fake_formulation.hpp"
 #include "support/temporary_folder.hpp"
@@ -46,10 +46,10 @@ TEST(Spread, TakesTheFirstTheLastAndSomeEvenlyBetween) {
     }
 }
 
-TEST(Survey, KnowsTheBoxAndTheExtremesOfEachFrame) {
+TEST(FrameStatistics, KnowsTheBoxAndTheExtremesOfEachFrame) {
   Results const results;
   RunFolder const run = open_run(results.run());
-  Survey const survey = survey_frames(run, {0, 2, 4}, {"Velocity"});
+  FrameStatistics const survey = survey_frames(run, {0, 2, 4}, {"Velocity"});
   EXPECT_EQ(survey.particles, 16u);
   EXPECT_EQ(survey.dimension, 2);
   EXPECT_EQ(survey.outside, 0u);
@@ -68,7 +68,7 @@ TEST(Survey, KnowsTheBoxAndTheExtremesOfEachFrame) {
   EXPECT_GT(survey.radius[0], 0.5);
 }
 
-TEST(Survey, CutsTheBoxWhereOneParticleFliesFarAndSaysSo) {
+TEST(FrameStatistics, CutsTheBoxWhereOneParticleFliesFarAndSaysSo) {
   TemporaryFolder const folder;
   Simulation s = testing::make_springs(60);
   s.particles.X[3599] = {1e6, 0, 0};
@@ -76,7 +76,7 @@ TEST(Survey, CutsTheBoxWhereOneParticleFliesFarAndSaysSo) {
   std::atomic<int> const none{0};
   run_case(s, {.folder = folder / "r"}, listener, none);
   RunFolder const run = open_run(folder / "r");
-  Survey const survey = survey_frames(run, {0, 1}, {});
+  FrameStatistics const survey = survey_frames(run, {0, 1}, {});
   EXPECT_LT(survey.high[0], 200);
   EXPECT_EQ(survey.outside, 1u);
   Lattice const lattice = Lattice::of(survey.low, survey.high, 14);
@@ -88,7 +88,7 @@ TEST(Survey, CutsTheBoxWhereOneParticleFliesFarAndSaysSo) {
 TEST(Plan, GivesUpFieldsThenFramesThenBitsThenParticles) {
   Results const results(40);
   RunFolder const run = open_run(results.run());
-  Survey const survey = survey_frames(run, {0, 1, 2, 3, 4}, {"Velocity", "Displacement", "Pressure"});
+  FrameStatistics const survey = survey_frames(run, {0, 1, 2, 3, 4}, {"Velocity", "Displacement", "Pressure"});
   Plan const all{.frames = {0, 1, 2, 3, 4}, .fields = 3};
   auto const plan = [&](double bytes) {
     return fitting_plan(run, survey, all, {.bytes = bytes, .least_fields = 1}, {});
@@ -120,7 +120,7 @@ TEST(Plan, GivesUpFieldsThenFramesThenBitsThenParticles) {
 TEST(Plan, LeavesBallsRoundBeforeAllElse) {
   Results const results(40);
   RunFolder const run = open_run(results.run());
-  Survey const survey = survey_frames(run, {0, 4}, {"Velocity"});
+  FrameStatistics const survey = survey_frames(run, {0, 4}, {"Velocity"});
   Plan const all{.frames = {0, 1}, .fields = 1, .stretched = true};
   Plan const less = fitting_plan(run, survey, all, {.bytes = 100, .least_fields = 1}, {});
   EXPECT_FALSE(less.stretched);
@@ -136,7 +136,7 @@ TEST(PageSurfaces, PackNumbersBelowTwoToTheThirtyTwo) {
 TEST(Plan, LetsBallsGrowWhereSomeAreLeftOut) {
   Results const results;
   RunFolder const run = open_run(results.run());
-  Survey const survey = survey_frames(run, {0, 4}, {});
+  FrameStatistics const survey = survey_frames(run, {0, 4}, {});
   auto const about = about_frames(run, survey, {.frames = {0, 1}, .every = 4});
   EXPECT_EQ(about["particles"], 4);
   EXPECT_DOUBLE_EQ(about["bodies"][0]["radius"].get<double>(), 2 * survey.radius[0]);  // a plate: two dimensions

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/watch.hpp"
-#include "piola/base/problems.hpp"
-#include "piola/output/files.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/output/atomic_file.hpp"
 #include "support/temporary_folder.hpp"
 #include <gtest/gtest.h>
 #include <limits>

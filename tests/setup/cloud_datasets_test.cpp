@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/output/checksum_trailer.hpp"
 #include "piola/output/hdf5.hpp"
-#include "piola/output/seal.hpp"
 #include "piola/setup/cloud_file.hpp"
 #include "support/temporary_folder.hpp"
 #include <cmath>
@@ -26,7 +26,7 @@ ReadPoints read_foreign(std::function<void(hdf5::Writer&)> const& fill, CloudOpt
   hdf5::Writer file(path);
   fill(file);
   file.finish();
-  std::filesystem::resize_file(path, std::filesystem::file_size(path) - seal_of({}).size());
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - checksum_trailer_of({}).size());
   ReadPoints read;
   read.cloud = read_cloud(path.string(), options, read.problems);
   for (std::string& problem : read.problems) problem.erase(0, path.string().size() + 2);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/contact_surface.hpp"
 #include "piola/input/read_case.hpp"
-#include "piola/math/places.hpp"
-#include "piola/setup/solid_bodies.hpp"
+#include "piola/math/array_conversion.hpp"
+#include "piola/setup/packed_bodies.hpp"
 #include <gtest/gtest.h>
 
 namespace piola {

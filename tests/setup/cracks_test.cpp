@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/cracks.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/setup/shapes.hpp"
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -66,7 +66,7 @@ Total total_of(ShapeSpec const& shape, Face const& face) {
   ParticleSet set;
   fill(shape, "body", set);
   Total t;
-  for (FaceShare const& share : face_shares(shape, set, set.bodies[0], face)) {
+  for (FaceWeight const& share : face_weights(shape, set, set.bodies[0], face)) {
     EXPECT_GT(share.area, 0);
     t.area += share.area;
     for (std::size_t c = 0; c < 3; ++c) t.resultant[c] -= share.area * share.normal[c];
@@ -130,7 +130,7 @@ TEST(Faces, HalfOfABallBearsThePressureOfItsSection) {
   ParticleSet set;
   fill(shape, "body", set);
   double up = 0;
-  for (FaceShare const& share : face_shares(shape, set, set.bodies[0], {0, false, Face::Part::outer}))
+  for (FaceWeight const& share : face_weights(shape, set, set.bodies[0], {0, false, Face::Part::outer}))
     if (share.normal[2] > 0) up += share.area * share.normal[2];
   EXPECT_NEAR(up / std::numbers::pi, 1, 0.02);
 }

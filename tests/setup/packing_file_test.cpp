@@ -2,7 +2,7 @@
 #include "piola/setup/packing_file.hpp"
 #include "piola/base/stopped.hpp"
 #include "piola/input/read_case.hpp"
-#include "piola/output/files.hpp"
+#include "piola/output/atomic_file.hpp"
 #include "support/temporary_folder.hpp"
 #include <gtest/gtest.h>
 #include <limits>

@@ -267,7 +267,7 @@ TEST(Shapes, HollowBodiesLeaveOutWhatIsNearerThanTheInnerRadius) {
     EXPECT_EQ(set.size(), expected);
     EXPECT_EQ(count_particles(shape), expected);
     EXPECT_TRUE(set.bodies[0].regular);
-    EXPECT_FALSE(set.bodies[0].scattered);
+    EXPECT_FALSE(set.bodies[0].off_lattice);
   }
 }
 
@@ -331,7 +331,7 @@ TEST(Shapes, DiscsOfRingsHaveThePublishedCounts) {
   EXPECT_NEAR(outermost, 5e-3, 1e-15);
   for (double const volume : set.volume) EXPECT_DOUBLE_EQ(volume, 1e-8);
   EXPECT_FALSE(set.bodies[0].regular);
-  EXPECT_TRUE(set.bodies[0].scattered);
+  EXPECT_TRUE(set.bodies[0].off_lattice);
 }
 
 TEST(Shapes, ALatticeWithRingsHasThePublishedCounts) {

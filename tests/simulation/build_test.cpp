@@ -183,7 +183,7 @@ TEST(Build, BodiesOfRingsAreMovedByJst) {
             shape + " }, spacing = 0.1 }\n" + material,
         "case.toml");
     Simulation simulation = build(spec);
-    double const step = simulation.formulation->settled_time_step();
+    double const step = simulation.formulation->steady_time_step();
     Diagnostics const before = simulation.formulation->diagnose();
     for (int i = 0; i < 10; ++i) simulation.formulation->step(i * step, step);
     Diagnostics const after = simulation.formulation->diagnose();

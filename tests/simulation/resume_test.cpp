@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a resumed run notices, and what it falls back to.
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/output/checkpoint.hpp"
 #include "piola/output/frames.hpp"
 #include "piola/simulation/run_case.hpp"
@@ -103,9 +103,9 @@ TEST(Resume, WarnsOfAnotherVersionOrInstructionSet) {
   EXPECT_TRUE(warnings_of_resume(folder / "r").empty());
   auto const newest = list_checkpoints(folder / "r").at(0);
   Checkpoint c = read_checkpoint(newest);
-  std::string const here = c.machine;
+  std::string const here = c.backend;
   c.version = "0.0.9";
-  c.machine = "v9 of a processor with v9";
+  c.backend = "v9 of a processor with v9";
   write_checkpoint(newest, c);
   auto const warnings = warnings_of_resume(folder / "r");
   EXPECT_TRUE(any_says(warnings, "written by Piola 0.0.9"));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/run_case.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/drawing/image.hpp"
 #include "piola/output/checkpoint.hpp"
 #include "piola/output/frames.hpp"
-#include "piola/output/image.hpp"
 #include "piola/simulation/run_summary.hpp"
 #include "support/fake_formulation.hpp"
 #include "support/scripted_run.hpp"
@@ -36,7 +36,7 @@ Simulation probed() {
   s.spec.probes.push_back(probe);
   s.spec.quantities.push_back({.name = "twist",
                                .column = "all.twist_angle",
-                               .take = QuantitySpec::Take::first_peak,
+                               .take = QuantitySpec::Statistic::first_peak,
                                .reference = {},
                                .unit = "degree"});
   return s;
@@ -104,7 +104,7 @@ TEST(RunCase, WritesAllThatAUserExpects) {
   s.spec.output.pictures.width = 300;
   s.spec.output.pictures.height = 240;
   CaseOutcome const outcome = run(s, folder / "r");
-  EXPECT_EQ(outcome.ending, Ending::completed);
+  EXPECT_EQ(outcome.ending, RunStatus::completed);
   for (char const* name : {"history.csv", "summary.json", "frames.hdf.series", "case.toml", "log.txt",
                            "frames/000004.hdf", "pictures/Pressure-000002.png"}) {
     EXPECT_TRUE(std::filesystem::exists(folder / "r" / name)) << name;
@@ -300,10 +300,10 @@ TEST(RunCase, ContinuesBitForBitAfterAStop) {
   springs(first).stop_at = 57;
   springs(first).stop = &stop;
   CaseOutcome const outcome = run(first, folder / "parts", false, &stop);
-  EXPECT_EQ(outcome.ending, Ending::stopped);
+  EXPECT_EQ(outcome.ending, RunStatus::stopped);
   EXPECT_EQ(outcome.summary.steps, 57);
   EXPECT_EQ(nlohmann::json::parse(text_of(folder / "parts/summary.json"))["status"], "stopped");
-  EXPECT_EQ(run(second, folder / "parts", true).ending, Ending::completed);
+  EXPECT_EQ(run(second, folder / "parts", true).ending, RunStatus::completed);
   expect_same_results(folder / "whole", folder / "parts");
 }
 
@@ -327,17 +327,17 @@ TEST(RunCase, WritesACheckpointWhenAskedAndGoesOn) {
   springs(asked).stop = &request;
   springs(asked).stop_at = 37;
   Listener listener;
-  struct Look : Observer {
+  struct GuardInput : Observer {
     std::filesystem::path folder;
     std::vector<std::filesystem::path> found;
-    void see(Formulation const&, Moment const& moment) override {
+    void observe(Formulation const&, TimeState const& moment) override {
       if (moment.step == 38) found = list_checkpoints(folder);
     }
   } look;
   look.folder = folder / "asked";
   CaseOutcome const outcome =
       run_case(asked, {.folder = look.folder, .also = &look, .checkpoint_request = &request}, listener, none);
-  EXPECT_EQ(outcome.ending, Ending::completed);
+  EXPECT_EQ(outcome.ending, RunStatus::completed);
   EXPECT_EQ(request, 0);
   EXPECT_EQ(look.found, std::vector{checkpoint_path(look.folder, 37)});
   EXPECT_NE(text_of(folder / "asked/log.txt").find("checkpoint at step 37"), std::string::npos);
@@ -353,7 +353,7 @@ TEST(RunCase, StopsBeforeItsWallTimeIsOver) {
   auto const now = WallLimit::Clock::now();
   RunOptions options{.folder = folder / "parts", .wall_time = 60, .started = now - std::chrono::seconds(61)};
   CaseOutcome const outcome = run_case(s, options, listener, none);
-  EXPECT_EQ(outcome.ending, Ending::stopped);
+  EXPECT_EQ(outcome.ending, RunStatus::stopped);
   EXPECT_TRUE(outcome.out_of_time);
   EXPECT_EQ(outcome.summary.steps, 1);
   EXPECT_EQ(read_checkpoint(list_checkpoints(folder / "parts").at(0)).step, 1);
@@ -361,7 +361,7 @@ TEST(RunCase, StopsBeforeItsWallTimeIsOver) {
   options.resume = true;
   options.started = now;
   Simulation again = probed();
-  EXPECT_EQ(run_case(again, options, listener, none).ending, Ending::completed);
+  EXPECT_EQ(run_case(again, options, listener, none).ending, RunStatus::completed);
   expect_same_results(folder / "whole", folder / "parts");
 }
 
@@ -370,7 +370,7 @@ TEST(RunCase, LeavesACompletedRunAsItIsWhenResumed) {
   Simulation first = probed(), second = probed();
   run(first, folder / "r");
   std::string const before = text_of(folder / "r/history.csv");
-  EXPECT_EQ(run(second, folder / "r", true).ending, Ending::completed);
+  EXPECT_EQ(run(second, folder / "r", true).ending, RunStatus::completed);
   EXPECT_EQ(text_of(folder / "r/history.csv"), before);
 }
 
@@ -387,7 +387,7 @@ TEST(RunCase, KeepsTheLastStateOfAFailedRunAndExplains) {
   Simulation s = make_springs();
   springs(s).fail_at = 40;
   CaseOutcome const outcome = run(s, folder / "r");
-  EXPECT_EQ(outcome.ending, Ending::failed);
+  EXPECT_EQ(outcome.ending, RunStatus::failed);
   for (char const* part :
        {"stopped at step 40, t = ",
         "particle 3 (body 'plate', X = (3, 0, 0) m, x = (0.5, 0.25, 0) m) is inverted, det F = -0.02, neighbours = 27",
@@ -404,7 +404,7 @@ TEST(RunCase, TakesACollapsedStepForAFailure) {
   Simulation s = make_springs();
   springs(s).collapse_at = 40;
   CaseOutcome const outcome = run(s, folder / "r");
-  EXPECT_EQ(outcome.ending, Ending::failed);
+  EXPECT_EQ(outcome.ending, RunStatus::failed);
   EXPECT_NE(outcome.failure.find("the time step collapsed, stable step [s] = 1e-30"), std::string::npos)
       << outcome.failure;
 }

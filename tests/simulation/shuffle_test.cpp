@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // No result depends on where particles stand in memory: every case takes its first steps with the tiles of its bodies
 // dealt out to one to seven owners at random, and has the same bits as in the order of the bodies.
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/particles/ordering.hpp"
 #include "piola/simulation/build.hpp"
@@ -219,7 +219,7 @@ TEST_P(ShuffledContact, IsTheSameWhoeverOwnsTheParticles) {
 
 std::string name_of(::testing::TestParamInfo<Acting> const& value) { return value.param.name; }
 
-INSTANTIATE_TEST_SUITE_P(Between, ShuffledContact, ::testing::ValuesIn(between_bodies()), name_of);
+INSTANTIATE_TEST_SUITE_P(ForceMoment, ShuffledContact, ::testing::ValuesIn(between_bodies()), name_of);
 INSTANTIATE_TEST_SUITE_P(AdapTLE, ShuffledContact, ::testing::ValuesIn(of_adaptle()), name_of);
 
 INSTANTIATE_TEST_SUITE_P(Cases, ShuffledCase, ::testing::ValuesIn(shuffled_cases()), [](auto const& value) {

@@ -91,7 +91,7 @@ class Springs : public Formulation {
     steps_ = static_cast<int>(steps);
   }
   int stages_per_step() const override { return 1; }
-  std::vector<std::pair<std::string, double>> costs() const override { return {{"springs", 0.5 * steps_}}; }
+  std::vector<std::pair<std::string, double>> timings() const override { return {{"springs", 0.5 * steps_}}; }
   std::size_t memory_bytes() const override { return 16 * u_.size(); }
 
   double stiffness = 4;

@@ -13,7 +13,7 @@ mkdir -p "$work/machines"
 failures=0
 fail() { echo "$1"; failures=$((failures + 1)); }
 
-cat >"$work/machine.cpp" <<'CODE'
+cat >"$work/backend.cpp" <<'CODE'
 #include <vector>
 template <class T> [[gnu::noinline]] T shared(std::vector<T> const& v) { return v.front(); }
 namespace piola::inline v3 {
@@ -21,22 +21,22 @@ template <class T> [[gnu::noinline]] T own(T x) { return x * x; }
 double solve(std::vector<double> const& v) { return own(shared(v)); }
 }  // namespace piola::inline v3
 CODE
-g++ -std=c++20 -O1 -march=x86-64-v3 -c -o "$work/plain.o" "$work/machine.cpp" || fail "the compiler failed"
+g++ -std=c++20 -O1 -march=x86-64-v3 -c -o "$work/plain.o" "$work/backend.cpp" || fail "the compiler failed"
 
 cp "$work/plain.o" "$work/machines/demo.v3.o"
 output=$("$root/tools/check_isa" "$work") && fail "check_isa accepted an object file that is not sealed"
 [[ $output == *"demo.v3.o: shares 'double shared<double>"* ]] || fail "the shared function is not named: $output"
 [[ $output != *"own<"* ]] || fail "a function of the machine's namespace is reported: $output"
 
-bash "$root/cmake/seal_machine.sh" v3 "$work/machines/demo.v3.o" "$work/plain.o" || fail "sealing failed"
+bash "$root/cmake/seal_backend.sh" v3 "$work/machines/demo.v3.o" "$work/plain.o" || fail "sealing failed"
 output=$("$root/tools/check_isa" "$work") || fail "check_isa refuses a sealed object file: $output"
 nm -C "$work/machines/demo.v3.o" | grep -q ' T piola::v3::solve' || fail "sealing hid the machine's own function"
 
-cat >"$work/machine.cpp" <<'CODE'
+cat >"$work/backend.cpp" <<'CODE'
 double first();
 double const early = first();
 CODE
-g++ -std=c++20 -O1 -c -o "$work/machines/demo.v3.o" "$work/machine.cpp"
+g++ -std=c++20 -O1 -c -o "$work/machines/demo.v3.o" "$work/backend.cpp"
 output=$("$root/tools/check_isa" "$work") && fail "check_isa accepted code that runs at program start"
 [[ $output == *"runs code at program start"* ]] || fail "the early code is not reported: $output"
 

@@ -1,64 +1,64 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The checks of tools/ find what they promise to find, in a small house of their own.
+# The checks of tools/ find what they promise to find, in a small source tree of their own.
 set -uo pipefail
 root=${PIOLA_SOURCE_DIR:-$(cd "$(dirname "$0")/../.." && pwd)}
-house=$(mktemp -d)
-trap 'rm -rf "$house"' EXIT
+tree=$(mktemp -d)
+trap 'rm -rf "$tree"' EXIT
 failures=0
 licence='// SPDX-License-Identifier: Apache-2.0'
 
 write() {  # write PATH LINE...
-  mkdir -p "$(dirname "$house/$1")"
-  printf '%s\n' "${@:2}" >"$house/$1"
+  mkdir -p "$(dirname "$tree/$1")"
+  printf '%s\n' "${@:2}" >"$tree/$1"
 }
 expect() {  # expect STATUS TEXT TOOL: the tool ends with STATUS and says TEXT
   local output status=0
-  output=$("$root/tools/$3" "$house" 2>&1) || status=$?
+  output=$("$root/tools/$3" "$tree" 2>&1) || status=$?
   if [[ $status -ne $1 || $output != *"$2"* ]]; then
     echo "$3: expected status $1 and the text '$2', got status $status and"
     echo "$output"
     failures=$((failures + 1))
   fi
 }
-fresh() { rm -rf "${house:?}/src" "${house:?}/app" && write src/piola/base/a.hpp "$licence" '#pragma once'; }
+fresh() { rm -rf "${tree:?}/src" "${tree:?}/app" && write src/piola/base/a.hpp "$licence" '#pragma once'; }
 
 fresh
-expect 0 "0 findings" check_floors
+expect 0 "0 findings" check_layers
 expect 0 "0 findings" check_sizes
 expect 0 "0 findings" check_words
 
-# Floors.
+# Layers.
 fresh && write src/piola/exec/b.hpp "$licence" '#pragma once'
 write src/piola/base/c.cpp "$licence" '#include "piola/exec/b.hpp"'
-expect 1 "src/piola/base/c.cpp:2: includes piola/exec/b.hpp: base/ (floor 0) does not see exec/ (floor 1)" check_floors
+expect 1 "src/piola/base/c.cpp:2: includes piola/exec/b.hpp: base/ (layer 0) does not see exec/ (layer 1)" check_layers
 fresh && write src/piola/base/c.cpp "$licence" '// #include "piola/exec/b.hpp"'
-expect 0 "0 findings" check_floors
+expect 0 "0 findings" check_layers
 fresh && write src/piola/particles/b.hpp "$licence" && write src/piola/exec/c.hpp "$licence"
 write src/piola/materials/d.hpp "$licence" '#include "piola/exec/c.hpp"'
-expect 1 "materials/ sees only base, math" check_floors
+expect 1 "materials/ sees only base, math" check_layers
 fresh && write src/piola/formulations/one/passes.hpp "$licence"
 write src/piola/formulations/two/step.hpp "$licence" '#include "piola/formulations/one/passes.hpp"'
-expect 1 "a formulation never includes another one" check_floors
+expect 1 "a formulation never includes another one" check_layers
 fresh && write src/piola/formulations/one/passes.hpp "$licence" && write src/piola/formulations/registry.hpp "$licence"
 write src/piola/input/a.cpp "$licence" '#include "piola/formulations/registry.hpp"'
-expect 0 "0 findings" check_floors
+expect 0 "0 findings" check_layers
 write src/piola/input/a.cpp "$licence" '#include "piola/formulations/one/passes.hpp"'
-expect 1 "input/ sees only the files at the top of formulations/" check_floors
+expect 1 "input/ sees only the files at the top of formulations/" check_layers
 fresh && write src/piola/setup/s.hpp "$licence" && write src/piola/input/a.cpp "$licence" '#include "piola/setup/s.hpp"'
-expect 0 "0 findings" check_floors
+expect 0 "0 findings" check_layers
 fresh && write src/piola/output/a.cpp "$licence" '#include "piola/base/gone.hpp"'
-expect 1 "which does not exist" check_floors
+expect 1 "which does not exist" check_layers
 fresh && write src/piola/mechanics/a.hpp "$licence" '#pragma omp parallel for'
-expect 1 "OpenMP pragmas (allowed only in exec/)" check_floors
+expect 1 "OpenMP pragmas (allowed only in exec/)" check_layers
 fresh && write src/piola/simulation/a.cpp "$licence" '#include <hdf5.h>'
-expect 1 "HDF5 (allowed only in output/)" check_floors
+expect 1 "HDF5 (allowed only in output/)" check_layers
 fresh && write src/piola/setup/a.cpp "$licence" 'void f() { std::cout << 1; }'
-expect 1 "library code never prints" check_floors
+expect 1 "library code never prints" check_layers
 fresh && write src/piola/setup/a.cpp "$licence" 'void f() { std::exit(1); }'
-expect 1 "library code never exits" check_floors
+expect 1 "library code never exits" check_layers
 fresh && write src/piola/attic/a.cpp "$licence"
-expect 1 "attic/ is no room of the house" check_floors
+expect 1 "attic/ is no module" check_layers
 
 # Sizes.
 fresh && write src/piola/base/b.cpp "$licence" 'void tall() {' "$(yes '  ;' | head -n 59)" '}'
@@ -100,8 +100,8 @@ expect 1 "const_cast: 1 (at most 0)" check_ratchets
 allow 'const_cast 2'
 expect 0 "const_cast: 1 (recorded: 2) - record it" check_ratchets
 recorded() {  # recorded WHEN: --record then leaves one
-  "$root/tools/check_ratchets" "$house" --record >/dev/null
-  grep -qx "const_cast 1" "$house/tools/ratchets.txt" && return
+  "$root/tools/check_ratchets" "$tree" --record >/dev/null
+  grep -qx "const_cast 1" "$tree/tools/ratchets.txt" && return
   echo "check_ratchets --record: expected const_cast 1 in ratchets.txt after the count has $1"
   failures=$((failures + 1))
 }

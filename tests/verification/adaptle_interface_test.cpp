@@ -116,8 +116,8 @@ TEST(AdaptleInterface, AVibratingDiscKeepsEnergyAndMomentumThroughConversions) {
 }
 
 TEST(AdaptleInterface, ThePrintedFormLosesMomentum) {
-  Course const printed = vibrate("t > 0.5e-6 && X > 2e-4 && Y > -3e-4", "none", "printed");
-  EXPECT_GT(printed.momentum, 1e-5);
+  Course const as_published = vibrate("t > 0.5e-6 && X > 2e-4 && Y > -3e-4", "none", "printed");
+  EXPECT_GT(as_published.momentum, 1e-5);
 }
 
 }  // namespace

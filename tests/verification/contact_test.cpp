@@ -7,13 +7,13 @@ namespace {
 
 using namespace testing;
 
-struct Meeting {
+struct ContactCoupling {
   std::string name;
   std::string left, right;  ///< formulations
   int dimension;
 };
 
-class SurfaceContact : public ::testing::TestWithParam<Meeting> {
+class SurfaceContact : public ::testing::TestWithParam<ContactCoupling> {
  protected:
   /// Two blocks of different spacing that meet off their middles and turn each other.
   static Assembly blocks(double friction = 0) {
@@ -146,16 +146,16 @@ TEST_P(SurfaceContact, ForcesOfShapesAndSupportsAreTheRateOfMomentum) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pairs, SurfaceContact,
-                         ::testing::Values(Meeting{"nodal_2d", "nodal", "nodal", 2},
-                                           Meeting{"nodal_3d", "nodal", "nodal", 3},
-                                           Meeting{"jst_2d", "jst_sph", "jst_sph", 2},
-                                           Meeting{"jst_nodal_3d", "jst_sph", "nodal", 3},
-                                           Meeting{"adaptle_nodal_2d", "adaptle", "nodal", 2},
-                                           Meeting{"adaptle_jst_3d", "adaptle", "jst_sph", 3},
-                                           Meeting{"taylor_2d", "taylor_sph", "taylor_sph", 2},
-                                           Meeting{"taylor_nodal_3d", "taylor_sph", "nodal", 3},
-                                           Meeting{"eulerian_nodal_2d", "eulerian", "nodal", 2},
-                                           Meeting{"eulerian_taylor_3d", "eulerian", "taylor_sph", 3}),
+                         ::testing::Values(ContactCoupling{"nodal_2d", "nodal", "nodal", 2},
+                                           ContactCoupling{"nodal_3d", "nodal", "nodal", 3},
+                                           ContactCoupling{"jst_2d", "jst_sph", "jst_sph", 2},
+                                           ContactCoupling{"jst_nodal_3d", "jst_sph", "nodal", 3},
+                                           ContactCoupling{"adaptle_nodal_2d", "adaptle", "nodal", 2},
+                                           ContactCoupling{"adaptle_jst_3d", "adaptle", "jst_sph", 3},
+                                           ContactCoupling{"taylor_2d", "taylor_sph", "taylor_sph", 2},
+                                           ContactCoupling{"taylor_nodal_3d", "taylor_sph", "nodal", 3},
+                                           ContactCoupling{"eulerian_nodal_2d", "eulerian", "nodal", 2},
+                                           ContactCoupling{"eulerian_taylor_3d", "eulerian", "taylor_sph", 3}),
                          [](auto const& at) { return at.param.name; });
 
 /// Two blocks that meet face to face, rub and spread, whole or cut along y = 0.

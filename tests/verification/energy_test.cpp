@@ -6,15 +6,15 @@ namespace {
 
 using namespace testing;
 
-double books(Diagnostics const& d) { return d.total_energy() + d.stabilisation_loss + d.projection_loss; }
+double energy_totals(Diagnostics const& d) { return d.total_energy() + d.stabilisation_loss + d.projection_loss; }
 
 /// What is missing in the books after 8 ms in n steps, relative to the initial energy.
 double defect(Assembly const& a, int n) {
   auto const f = make_formulation(a);
-  double const before = books(f->diagnose());
+  double const before = energy_totals(f->diagnose());
   advance(*f, 8e-3 / n, n);
   EXPECT_FALSE(f->failure().has_value());
-  return std::fabs(books(f->diagnose()) - before) / before;
+  return std::fabs(energy_totals(f->diagnose()) - before) / before;
 }
 
 class EnergyBalance : public ::testing::TestWithParam<std::tuple<std::string, std::string, double>> {

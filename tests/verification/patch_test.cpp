@@ -13,7 +13,7 @@ class PatchTest : public ::testing::TestWithParam<std::tuple<int, double, std::s
   Assembly assembly(int n) const {
     Assembly a = assemble(unit_box(dimension, n, std::get<1>(GetParam())));
     choose(a, "scheme", std::get<2>(GetParam()));
-    a.machine = std::get<3>(GetParam());
+    a.backend = std::get<3>(GetParam());
     return a;
   }
   /// G without the components that the dimension lacks.
@@ -91,7 +91,7 @@ TEST_P(PatchTest, WithUniformStressAcceleratesTheSurfaceOnly) {
 }
 
 std::vector<std::string> narrowest_and_widest() {
-  auto const all = machines();
+  auto const all = backends();
   return all.front() == all.back() ? std::vector<std::string>{all.front()}
                                    : std::vector<std::string>{all.front(), all.back()};
 }

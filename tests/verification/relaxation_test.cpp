@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/simulation/relaxation.hpp"
-#include "piola/simulation/run.hpp"
+#include "piola/simulation/dynamic_relaxation.hpp"
+#include "piola/simulation/time_loop.hpp"
 #include "formulations/small_bodies.hpp"
 #include "materials/solid_samples.hpp"
 #include <atomic>
@@ -49,8 +49,8 @@ void pull(Assembly& a, int dimension, int n) {
 
 struct Relaxed {
   std::unique_ptr<Formulation> formulation;
-  Rest rest;
-  Moment moment;
+  RelaxationStatus rest;
+  TimeState moment;
   bool unfinished = false;
 };
 Relaxed relax(Assembly const& a, double end = 10, double limit = 1e-4) {
@@ -179,7 +179,7 @@ TEST(Relaxation, BringsStiffAndSoftSpringsToRestAtAnyStep) {
     run.end = 1000;
     run.relax = true;
     Relaxation relaxation(run, set, 4);
-    Moment moment;
+    TimeState moment;
     std::atomic<int> const stop{0};
     WallLimit wall(WallLimit::none, WallLimit::Clock::now());
     march(springs, run, moment, {}, {stop, wall}, &relaxation);

@@ -20,15 +20,15 @@ inline void add_block(Assembly& a, int dimension, std::string const& formulation
     shape.particles[c] = n;
   }
   fill(shape, "block " + std::to_string(a.particles.bodies.size()), a.particles);
-  bool const flows = formulation == "eulerian", solid = formulation == "adaptle" || flows;
+  bool const is_eulerian = formulation == "eulerian", solid = formulation == "adaptle" || is_eulerian;
   bool const linear = formulation == "taylor_sph";
   a.materials.push_back(solid ? sample_metal("elastic", "elastic") : rubber(linear ? "linear_elastic" : "neo_hookean"));
   a.formulations.push_back({solid ? "adaptle" : formulation, {}, {}});
   // The form of the viscosity that keeps angular momentum.
   if (solid) a.formulations.back().words = {{"description", "total_lagrangian"}, {"viscosity_form", "central"}};
-  if (flows) a.formulations.back().words = {{"description", "eulerian"}};
+  if (is_eulerian) a.formulations.back().words = {{"description", "eulerian"}};
   a.surfaces.push_back(contact_surface(shape, a.particles, a.particles.bodies.back()));
-  if (flows) a.surfaces.back().points.clear();
+  if (is_eulerian) a.surfaces.back().points.clear();
   with_any_law(a.materials.back(), [&](auto const& law) { a.surfaces.back().modulus = law.kappa + 4.0 / 3 * law.mu; });
 }
 

@@ -12,11 +12,11 @@ using namespace testing;
 struct Setting {
   int dimension;
   double jitter;
-  std::string configuration, cells, machine;
+  std::string configuration, cells, backend;
 };
 
 void PrintTo(Setting const& s, std::ostream* out) {
-  *out << s.dimension << "D jitter " << s.jitter << " " << s.configuration << " " << s.cells << " " << s.machine;
+  *out << s.dimension << "D jitter " << s.jitter << " " << s.configuration << " " << s.cells << " " << s.backend;
 }
 
 class TaylorPatchTest : public ::testing::TestWithParam<Setting> {
@@ -26,7 +26,7 @@ class TaylorPatchTest : public ::testing::TestWithParam<Setting> {
     Assembly a = assemble_taylor(unit_box(D, D == 1 ? 12 : D == 2 ? 7 : 5, GetParam().jitter));
     choose(a, "configuration", GetParam().configuration);
     choose(a, "virtual_particles", GetParam().cells);
-    a.machine = GetParam().machine;
+    a.backend = GetParam().backend;
     return a;
   }
   bool is_moving() const { return GetParam().configuration == "updated"; }
@@ -125,13 +125,13 @@ TEST_P(TaylorPatchTest, WithALinearStressHasItsDivergenceInside) {
 
 std::vector<Setting> settings() {
   std::vector<Setting> r;
-  auto const all = machines();
-  for (auto const& machine : std::set<std::string>{all.front(), all.back()})
+  auto const all = backends();
+  for (auto const& backend : std::set<std::string>{all.front(), all.back()})
     for (int D = 1; D <= 3; ++D)
       for (auto const* configuration : {"updated", "fixed"}) {
-        for (double const jitter : {0.0, 0.15}) r.push_back({D, jitter, configuration, "delaunay", machine});
+        for (double const jitter : {0.0, 0.15}) r.push_back({D, jitter, configuration, "delaunay", backend});
         if (D > 1)
-          for (double const jitter : {0.0, 0.15}) r.push_back({D, jitter, configuration, "lattice_cells", machine});
+          for (double const jitter : {0.0, 0.15}) r.push_back({D, jitter, configuration, "lattice_cells", backend});
       }
   return r;
 }
@@ -139,7 +139,7 @@ std::vector<Setting> settings() {
 INSTANTIATE_TEST_SUITE_P(All, TaylorPatchTest, ::testing::ValuesIn(settings()), [](auto const& p) {
   auto const& s = p.param;
   return std::to_string(s.dimension) + "D_" + (s.jitter > 0 ? "jittered_" : "regular_") + s.configuration + "_" +
-         s.cells + "_" + s.machine;
+         s.cells + "_" + s.backend;
 });
 
 /// What the printed form of the gradient cannot do: its values are exact for a constant only.

@@ -126,19 +126,22 @@ std::vector<std::string> known_names(Names const& names) {
   return known;
 }
 
-struct Meant {
+struct Suggestion {
   std::string_view written, advice;
 };
 /// Operators and functions of other languages, for advice in messages.
 constexpr std::array other_tongues{
-    Meant{"if", "\"if\" is not a function - write condition ? value : other_value"},
-    Meant{"and", "\"and\" is not an operator - write &&"},
-    Meant{"or", "\"or\" is not an operator - write ||"},
-    Meant{"not", "\"not\" is not an operator - write !"},
-    Meant{"x", "\"x\" is not known (the position in the reference configuration is X, Y, Z) - did you mean \"X\"?"},
-    Meant{"y", "\"y\" is not known (the position in the reference configuration is X, Y, Z) - did you mean \"Y\"?"},
-    Meant{"z", "\"z\" is not known (the position in the reference configuration is X, Y, Z) - did you mean \"Z\"?"},
-    Meant{"T", "\"T\" is not known (the time is t) - did you mean \"t\"?"},
+    Suggestion{"if", "\"if\" is not a function - write condition ? value : other_value"},
+    Suggestion{"and", "\"and\" is not an operator - write &&"},
+    Suggestion{"or", "\"or\" is not an operator - write ||"},
+    Suggestion{"not", "\"not\" is not an operator - write !"},
+    Suggestion{"x",
+               "\"x\" is not known (the position in the reference configuration is X, Y, Z) - did you mean \"X\"?"},
+    Suggestion{"y",
+               "\"y\" is not known (the position in the reference configuration is X, Y, Z) - did you mean \"Y\"?"},
+    Suggestion{"z",
+               "\"z\" is not known (the position in the reference configuration is X, Y, Z) - did you mean \"Z\"?"},
+    Suggestion{"T", "\"T\" is not known (the time is t) - did you mean \"t\"?"},
 };
 
 /// The character before a position that is not blank; a blank if there is none.
@@ -163,7 +166,7 @@ void refuse_unit(std::string const& text, Word const& word) {
 }
 
 [[noreturn]] void fail_unknown(std::string const& text, Word const& word, Names const& names) {
-  for (Meant const& meant : other_tongues) {
+  for (Suggestion const& meant : other_tongues) {
     if (word.text == meant.written) fail(std::string(meant.advice), word.position);
   }
   refuse_unit(text, word);

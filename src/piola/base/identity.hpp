@@ -14,7 +14,7 @@ struct Identity {
       case_text;  ///< of the case with its settings, without comments, layout and the keys that change no result
   std::vector<std::pair<std::string, std::string>> files;  ///< as the case names them, with the digest of the content
   std::string program;                                     ///< version and build
-  std::string machine;                                     ///< instruction sets
+  std::string backend;                                     ///< instruction sets
 };
 
 }  // namespace piola

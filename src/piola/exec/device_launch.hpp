@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/parallel.hpp"
+#include "piola/exec/device_loops.hpp"
 
 /// Helpers with which machine.cu of every formulation launches its passes.
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 namespace exec {
 
 template <class Pass>

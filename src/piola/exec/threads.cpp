@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/exec/threads.hpp"
-#include "piola/exec/processor_quota.hpp"
+#include "piola/exec/cpu_quota.hpp"
 #include <algorithm>
 #include <atomic>
 #include <charconv>
@@ -57,12 +57,12 @@ int automatic_threads() {
   return std::max(1, granted > 0 ? std::min(granted, most) : most);
 }
 
-int team(int particles) {
+int team_size(int particles) {
   int const worth = particles / least_share.load(std::memory_order_relaxed);
   return std::clamp(worth + 1, 1, omp_get_max_threads());
 }
 
-int set_least_share(int particles) { return least_share.exchange(std::max(1, particles)); }
+int set_min_grain_size(int particles) { return least_share.exchange(std::max(1, particles)); }
 
 void pin_threads() {
   static std::vector<int> const cores = allowed_cores();  // as they were before the first pinning

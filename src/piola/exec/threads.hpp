@@ -12,11 +12,11 @@ int threads();
 int automatic_threads();
 
 /// Number of threads for a loop over `particles` particles: at most threads(), each with at least the least share
-/// (set_least_share()).
-int team(int particles);
+/// (set_min_grain_size()).
+int team_size(int particles);
 /// Sets the least number of particles per thread and returns the previous one. Below the default, a thread costs more
 /// (start, barrier) than it saves. Tests set 1 so that all threads work on small bodies.
-int set_least_share(int particles);
+int set_min_grain_size(int particles);
 
 /// Pins each thread to one of the cores that this process may use (benchmarks).
 void pin_threads();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/domain/load_balancer.hpp"
 #include "piola/formulations/registry.hpp"
 #include "piola/materials/registry.hpp"
 #include "piola/mechanics/contact/friction.hpp"
@@ -8,7 +9,6 @@
 #include "piola/mechanics/load.hpp"
 #include "piola/mechanics/rigid_shape.hpp"
 #include "piola/mechanics/support.hpp"
-#include "piola/parallel/work_balance.hpp"
 #include "piola/particles/particle_set.hpp"
 #include <array>
 #include <limits>
@@ -28,11 +28,11 @@ struct MirrorPlane {
 /// Contact law between the bodies of a run.
 struct ContactRule {
   enum class Law {
-    none,     ///< no contact; Eulerian bodies merge
-    kernel,   ///< repulsion by the kernel, stiffness from the impedances
-    linear,   ///< linear spring with the stiffness of the material: slow impacts
-    printed,  ///< repulsion by the kernel with a constant and current volumes, as published
-    surface   ///< surface contact, also for formulations that have a kernel contact of their own
+    none,          ///< no contact; Eulerian bodies merge
+    kernel,        ///< repulsion by the kernel, stiffness from the impedances
+    linear,        ///< linear spring with the stiffness of the material: slow impacts
+    as_published,  ///< repulsion by the kernel with a constant and current volumes, as published
+    surface        ///< surface contact, also for formulations that have a kernel contact of their own
   };
   Law law = Law::kernel;
   double scale = 1;                                                 ///< factor on the stiffness
@@ -79,13 +79,13 @@ struct Assembly {
   std::vector<ContactPair> contact_pairs;
   std::vector<contact::Surface> surfaces;                 ///< one per body, or empty: no surface contact
   std::vector<contact::TieRule> ties;                     ///< of bodies that have surfaces
-  bool pushed = false;                                    ///< Formulation::push will be called
+  bool coupled = false;                                   ///< Formulation::push will be called
   double cfl = std::numeric_limits<double>::quiet_NaN();  ///< nan: the scheme's default
-  std::string machine = "auto";                           ///< instruction set: auto, scalar, v3, v4
+  std::string backend = "auto";                           ///< instruction set: auto, scalar, v3, v4
   Repartition repartition;                                ///< on ranks
   /// For memory estimates: builds the formulation as a rank that owns no particle would, i.e. only the data that every
-  /// rank holds of all particles. Only if FormulationInfo::tells_of_space.
-  bool only_known = false;
+  /// rank holds of all particles. Only if FormulationInfo::has_spatial_halo.
+  bool for_estimate_only = false;
 };
 
 /// The materials of a body: the main one, then those of its parts, in the order of ParticleSet::part.

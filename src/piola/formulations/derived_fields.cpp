@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/derived_fields.hpp"
-#include "piola/formulations/observed.hpp"
+#include "piola/formulations/common/output_fields.hpp"
 #include <algorithm>
 
 namespace piola {
@@ -12,7 +12,7 @@ DerivedField const* find_derived(std::string_view field) {
 }
 
 int components_of(DerivedField const& derived) {
-  auto const table = observed_table();
+  auto const table = output_field_table();
   return std::find_if(table.begin(), table.end(), [&](auto const& f) { return f.name == derived.name; })->components;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/formulation.hpp"
-#include "piola/formulations/set_up_checks.hpp"
-#include "piola/parallel/ranks.hpp"
+#include "piola/domain/communicator.hpp"
+#include "piola/formulations/common/set_up_checks.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <stdexcept>
@@ -15,8 +15,8 @@ FieldInfo const& info_of(std::span<FieldInfo const> fields, std::string_view nam
 }
 
 /// sample() has its result on rank 0 and none on other ranks.
-std::optional<std::vector<std::int64_t>> Formulation::owned() const {
-  return ranks::own() == 0 ? std::nullopt : std::optional<std::vector<std::int64_t>>(std::in_place);
+std::optional<std::vector<std::int64_t>> Formulation::local_particles() const {
+  return comm::rank() == 0 ? std::nullopt : std::optional<std::vector<std::int64_t>>(std::in_place);
 }
 
 std::vector<SetUpCheck> set_up_checks_of(Formulation const& formulation) {
@@ -24,17 +24,17 @@ std::vector<SetUpCheck> set_up_checks_of(Formulation const& formulation) {
   return checked == nullptr ? std::vector<SetUpCheck>{} : checked->set_up_checks();
 }
 
-void StateWriter::put_rows(std::string_view name, RowsOfRanks const& rows, std::span<double const> values) {
-  if (!ranks::several() && !rows.places) return put(name, values);
-  std::vector<double> const all = RowPlan(rows, rows.count).collect(values, rows.columns);
-  if (ranks::own() == 0) put(name, all);
+void StateWriter::put_rows(std::string_view name, DistributedRows const& rows, std::span<double const> values) {
+  if (!comm::is_parallel() && !rows.places) return put(name, values);
+  std::vector<double> const all = RedistributionPlan(rows, rows.count).collect(values, rows.columns);
+  if (comm::rank() == 0) put(name, all);
 }
 
-void StateReader::get_rows(std::string_view name, RowsOfRanks const& rows, std::span<double> values) {
-  if (!ranks::several() && !rows.places) return get(name, values);
-  std::vector<double> all(ranks::own() == 0 ? numbers_of(rows) : 0);
-  get_to_deal(name, all);
-  RowPlan(rows, rows.count).hand_out<double>(all, values, rows.columns);
+void StateReader::get_rows(std::string_view name, DistributedRows const& rows, std::span<double> values) {
+  if (!comm::is_parallel() && !rows.places) return get(name, values);
+  std::vector<double> all(comm::rank() == 0 ? value_count(rows) : 0);
+  get_on_root(name, all);
+  RedistributionPlan(rows, rows.count).from_file_order<double>(all, values, rows.columns);
 }
 
 }  // namespace piola

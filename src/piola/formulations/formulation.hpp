@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/mechanics/actions.hpp"
+#include "piola/domain/bisection.hpp"
+#include "piola/domain/load_balancer.hpp"
+#include "piola/domain/redistribution_plan.hpp"
+#include "piola/mechanics/resultants.hpp"
 #include "piola/mechanics/rigid_state.hpp"
-#include "piola/parallel/bisection.hpp"
-#include "piola/parallel/row_plan.hpp"
-#include "piola/parallel/work_balance.hpp"
 #include "piola/particles/ordering.hpp"
 #include <array>
 #include <cstdint>
@@ -28,7 +28,7 @@ struct FieldInfo {
 FieldInfo const& info_of(std::span<FieldInfo const> fields, std::string_view name);
 
 /// The contribution of one body to the quantities below.
-struct BodyShare {
+struct BodyDiagnostics {
   std::string name;
   double kinetic_energy = 0, strain_energy = 0;  ///< J
   std::array<double, 3> linear_momentum{};       ///< kg m/s
@@ -55,7 +55,7 @@ struct Diagnostics {
   double pressure_min = 0, pressure_max = 0;         ///< Pa, positive in tension
   double pressure_oscillation = 0;                   ///< 1 for a checkerboard, O(dx^2) for a smooth field
   std::vector<std::pair<std::string, double>> more;  ///< columns of this formulation only
-  std::vector<BodyShare> bodies;
+  std::vector<BodyDiagnostics> bodies;
   std::vector<Action> actions;
   std::vector<RigidState> rigids;  ///< free or rotating shapes
   std::vector<Passage> passages;
@@ -72,7 +72,7 @@ struct Failure {
 };
 
 /// Estimate of the step lengths of a run.
-struct StepRule {
+struct StepEstimate {
   double settled = 0;       ///< s, the step once the run has settled
   double first = 0;         ///< s
   double growth = 1;        ///< a step may be longer than the one before by this factor; 1: no bound
@@ -84,42 +84,42 @@ struct StepRule {
 };
 
 /// Communication pattern of one body, for estimates of parallel efficiency.
-struct Talk {
+struct CommPattern {
   /// Values per particle of one ghost exchange, sent to the ranks within `reach`.
   struct Told {
     double reach;  ///< cutoff in the reference configuration [m]
     int numbers;
   };
   std::vector<std::vector<Told>> messages;  ///< of one right-hand side, to the ranks that read any of it
-  /// Exchange with spatial neighbours (CellMarks), after an allgather of the occupied cells.
-  struct Near {
+  /// Exchange with spatial neighbours (HaloCells), after an allgather of the occupied cells.
+  struct SpatialHalo {
     struct Numbers {
       int any, flow, touch;  ///< values per particle: for any reader, for Eulerian readers, for contact
     };
-    std::vector<Numbers> messages;    ///< per step
-    std::size_t group = 0;            ///< bodies of a group use the same cells, whose edge is the largest of their
-                                      ///< `cell`
-    double cell = 0;                  ///< edge [m]
-    bool touching = false;            ///< bodies of the group can be in contact
-    std::vector<std::uint8_t> flows;  ///< Eulerian or not, per particle of the body, or one value for all
+    std::vector<Numbers> messages;  ///< per step
+    std::size_t group = 0;          ///< bodies of a group use the same cells, whose edge is the largest of their
+                                    ///< `cell`
+    double cell = 0;                ///< edge [m]
+    bool touching = false;          ///< bodies of the group can be in contact
+    std::vector<std::uint8_t> is_eulerian;  ///< Eulerian or not, per particle of the body, or one value for all
   };
-  std::optional<Near> near{};
-  double stages = 0;             ///< right-hand sides per step; 0: as in step_rule()
+  std::optional<SpatialHalo> near{};
+  double stages = 0;             ///< right-hand sides per step; 0: as in step_estimate_of_run()
   double collectives = 0;        ///< allreduces and broadcasts per step
   double more_if_shortened = 0;  ///< additional ones when the common step is shorter than the step of this formulation
-  double to_all = 0;             ///< values per step that are replicated on all ranks
-  /// Order of the particles for a given number of ranks; each rank owns a contiguous range of it (share_of).
+  double replicated_values = 0;  ///< values per step that are replicated on all ranks
+  /// Order of the particles for a given number of ranks; each rank owns a contiguous range of it (even_range_of_rank).
   SlotOrder (*order)(ParticleSet const&, Body const&, int ranks) = &bisected_pencils;
 
   /// Adds the collectives that the formulation needs when the common time step `step` [s] is shorter than `own`, the
   /// step that it would take by itself.
-  void take_shorter_steps(double own, double step) {
+  void account_for_shorter_steps(double own, double step) {
     if (step < own) collectives += std::exchange(more_if_shortened, 0.0);
   }
   /// Adds the cost of replicating position and velocity of `particles` particles in every step, for surface contact.
-  void read_motion_of(std::size_t particles) {
+  void add_coupled_particles(std::size_t particles) {
     collectives += particles > 0 ? 1 : 0;
-    to_all += 6 * static_cast<double>(particles);
+    replicated_values += 6 * static_cast<double>(particles);
   }
 };
 
@@ -130,11 +130,11 @@ class StateWriter {
   virtual void put(std::string_view name, std::span<double const> values) = 0;
   /// Saves a distributed table. `values`: the rows of this rank. Collective. The default gathers all rows on rank 0 and
   /// calls put() there.
-  virtual void put_rows(std::string_view name, RowsOfRanks const& rows, std::span<double const> values);
+  virtual void put_rows(std::string_view name, DistributedRows const& rows, std::span<double const> values);
   /// Destination of the rows in put_rows(): rank 0; one file, then followed by end_rows(); or nowhere, since only the
   /// size is needed.
-  enum class Rows { to_first, to_file, counted };
-  virtual Rows rows() const { return Rows::to_first; }
+  enum class Rows { to_root, to_file, counted };
+  virtual Rows rows() const { return Rows::to_root; }
   virtual void end_rows() {}  ///< collective
 };
 
@@ -142,8 +142,8 @@ class StateWriter {
 class StateSize : public StateWriter {
  public:
   void put(std::string_view, std::span<double const> values) override { numbers_ += values.size(); }
-  void put_rows(std::string_view, RowsOfRanks const& rows, std::span<double const>) override {
-    numbers_ += numbers_of(rows);
+  void put_rows(std::string_view, DistributedRows const& rows, std::span<double const>) override {
+    numbers_ += value_count(rows);
   }
   Rows rows() const override { return Rows::counted; }
   std::size_t numbers() const { return numbers_; }
@@ -153,7 +153,7 @@ class StateSize : public StateWriter {
 };
 
 /// Location of a contiguous array in a file, in the byte order of memory.
-struct PlaceInFile {
+struct FileExtent {
   std::string path;
   std::uint64_t at;  ///< [bytes]
 };
@@ -164,12 +164,12 @@ class StateReader {
   virtual void get(std::string_view name, std::span<double> values) = 0;
   /// As get(), for data that rank 0 scatters afterwards: rank 0 passes a buffer of the full length, other ranks pass an
   /// empty span.
-  virtual void get_to_deal(std::string_view name, std::span<double> values) { get(name, values); }
+  virtual void get_on_root(std::string_view name, std::span<double> values) { get(name, values); }
   /// Inverse of put_rows(). `values`: the rows of this rank. Collective. The default reads all rows on rank 0 and
   /// scatters them.
-  virtual void get_rows(std::string_view name, RowsOfRanks const& rows, std::span<double> values);
+  virtual void get_rows(std::string_view name, DistributedRows const& rows, std::span<double> values);
   /// Returns the location of `count` values if other processes can read the file; else empty. Throws as get().
-  virtual std::optional<PlaceInFile> place(std::string_view /*name*/, std::size_t /*count*/) { return std::nullopt; }
+  virtual std::optional<FileExtent> place(std::string_view /*name*/, std::size_t /*count*/) { return std::nullopt; }
 };
 
 /// Interface of every formulation: called at most a few times per step, holds no data. Particles are addressed in Id
@@ -180,10 +180,10 @@ class Formulation {
 
   virtual double stable_time_step() const = 0;  ///< s, the step to take from the current state
   /// For estimates: the step after the first, shorter steps [s].
-  virtual double settled_time_step() const { return stable_time_step(); }
-  virtual StepRule step_rule() const {
-    StepRule rule;
-    rule.settled = rule.first = settled_time_step();
+  virtual double steady_time_step() const { return stable_time_step(); }
+  virtual StepEstimate step_estimate_of_run() const {
+    StepEstimate rule;
+    rule.settled = rule.first = steady_time_step();
     rule.limit = "the formulation";
     return rule;
   }
@@ -199,7 +199,8 @@ class Formulation {
                            std::span<std::array<double, 3>> /*v*/) const {}                          ///< [m], [m/s]
   virtual void read_masses(std::span<std::int64_t const> /*ids*/, std::span<double> /*m*/) const {}  ///< [kg]
   /// Adds to velocities, also to prescribed ones [m/s].
-  virtual void push(std::span<std::int64_t const> /*ids*/, std::span<std::array<double, 3> const> /*change*/) {}
+  virtual void add_velocities(std::span<std::int64_t const> /*ids*/,
+                              std::span<std::array<double, 3> const> /*change*/) {}
 
   /// Current state of free and rotating rigid shapes; driven ones without rotation follow from the case.
   virtual std::vector<RigidState> rigids() const { return {}; }
@@ -215,22 +216,22 @@ class Formulation {
   virtual void sample(std::string_view field, std::span<double> values) const = 0;
   /// Ids of the particles that this rank evaluates for observers: each particle is on exactly one rank. Valid until the
   /// next repartition (recuts()). Empty: all particles, in Id order.
-  virtual std::optional<std::vector<std::int64_t>> owned() const;
+  virtual std::optional<std::vector<std::int64_t>> local_particles() const;
   /// Samples one field of the particles owned(): values[k * components + c] for the k-th. Collective.
-  virtual void sample_owned(std::string_view field, std::span<double> values) const { sample(field, values); }
+  virtual void sample_local(std::string_view field, std::span<double> values) const { sample(field, values); }
 
   virtual void save(StateWriter& writer) const = 0;
   virtual void load(StateReader& reader) = 0;
 
   virtual int stages_per_step() const = 0;  ///< right-hand sides per step
   /// Wall time since construction by part of the work [s], for the summary.
-  virtual std::vector<std::pair<std::string, double>> costs() const { return {}; }
+  virtual std::vector<std::pair<std::string, double>> timings() const { return {}; }
   virtual std::size_t memory_bytes() const = 0;
 
   /// Communication pattern of one body; empty if the formulation does not run on ranks.
-  virtual std::optional<Talk> talk(std::size_t /*body*/) const { return std::nullopt; }
+  virtual std::optional<CommPattern> comm_pattern(std::size_t /*body*/) const { return std::nullopt; }
   /// Number of repartitions; empty if the formulation cannot repartition.
-  virtual std::optional<Recuts> recuts() const { return std::nullopt; }
+  virtual std::optional<RepartitionStatistics> repartition_statistics() const { return std::nullopt; }
 };
 
 }  // namespace piola

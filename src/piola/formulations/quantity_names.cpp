@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/quantity_names.hpp"
-#include "piola/formulations/observed.hpp"
+#include "piola/formulations/common/output_fields.hpp"
 #include "piola/math/symmetric_eigen.hpp"
 #include <algorithm>
 #include <array>
@@ -73,7 +73,7 @@ constexpr std::array derived{DerivedField{"PrincipalStress", "CauchyStress", "Pa
 
 std::vector<FieldQuantity> make_table() {
   std::vector<FieldQuantity> table;
-  for (ObservedField const& f : observed_table()) {
+  for (OutputField const& f : output_field_table()) {
     std::string const word(f.word), field(f.name), unit(f.unit);
     for (int c = 0; c < f.components && !word.empty(); ++c)
       table.push_back({word + suffix(f.word, f.components, c), field, c, unit});

@@ -46,7 +46,7 @@ struct PartQuantity {
 std::span<PartQuantity const> action_quantities();
 /// Quantities of each free or rotating rigid shape, in the order of RigidState.
 std::span<PartQuantity const> rigid_quantities();
-/// Quantities of each body of a case with several bodies, in the order of BodyShare.
+/// Quantities of each body of a case with several bodies, in the order of BodyDiagnostics.
 std::span<PartQuantity const> body_quantities();
 
 /// Names of the components of a field with `components` of them: x y z, xx yy zz xy yz xz, or xx xy xz yx ...; empty

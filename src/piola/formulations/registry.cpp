@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/registry.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/formulations/adaptle/solver.hpp"
-#include "piola/formulations/ensemble.hpp"
+#include "piola/formulations/common/observe_on_root.hpp"
+#include "piola/formulations/coupling/coupled_formulations.hpp"
 #include "piola/formulations/jst_advection/options.hpp"
 #include "piola/formulations/jst_advection/solver.hpp"
 #include "piola/formulations/jst_sph/options.hpp"
 #include "piola/formulations/jst_sph/solver.hpp"
-#include "piola/formulations/make.hpp"
+#include "piola/formulations/make_formulation.hpp"
 #include "piola/formulations/nodal/options.hpp"
 #include "piola/formulations/nodal/solver.hpp"
-#include "piola/formulations/observed_by_first.hpp"
 #include "piola/formulations/taylor_sph/options.hpp"
 #include "piola/formulations/taylor_sph/solver.hpp"
 #include <algorithm>
@@ -25,15 +25,15 @@ namespace {
 struct Entry {
   FormulationInfo info;
   std::unique_ptr<Formulation> (*make)(Assembly const&);
-  void (*doubt)(Assembly const&, std::size_t body, BodyDoubts&);
+  void (*setting_warning)(Assembly const&, std::size_t body, BodyWarnings&);
 };
 
 /// Adding a formulation: its folder and one line here.
-std::array const all{Entry{jst_sph::info(), &jst_sph::make, &jst_sph::doubt},
-                     Entry{jst_advection::info(), &jst_advection::make, &jst_advection::doubt},
-                     Entry{taylor_sph::info(), &taylor_sph::make, &taylor_sph::doubt},
-                     Entry{adaptle::info(), &adaptle::make, &adaptle::doubt},
-                     Entry{nodal::info(), &nodal::make, &nodal::doubt}};
+std::array const all{Entry{jst_sph::info(), &jst_sph::make, &jst_sph::setting_warning},
+                     Entry{jst_advection::info(), &jst_advection::make, &jst_advection::setting_warning},
+                     Entry{taylor_sph::info(), &taylor_sph::make, &taylor_sph::setting_warning},
+                     Entry{adaptle::info(), &adaptle::make, &adaptle::setting_warning},
+                     Entry{nodal::info(), &nodal::make, &nodal::setting_warning}};
 
 std::array const infos{all[0].info, all[1].info, all[2].info, all[3].info, all[4].info};
 
@@ -41,12 +41,13 @@ bool knows(FormulationInfo const& info, std::string_view what) {
   if (what == "cracks") return info.cracks;
   if (what == "mirrors") return info.mirrors;
   if (what == "parts") return info.parts;
-  if (what == "points from files") return info.scattered && !info.outline;
-  return what == "rings" || what == "packed clouds" ? info.scattered : info.contact || info.pushable;
+  if (what == "points from files") return info.off_lattice && !info.outline;
+  return what == "rings" || what == "packed clouds" ? info.off_lattice : info.contact || info.can_be_coupled;
 }
 
 bool has_scattered(ParticleSet const& particles) {
-  return std::any_of(particles.bodies.begin(), particles.bodies.end(), [](Body const& body) { return body.scattered; });
+  return std::any_of(particles.bodies.begin(), particles.bodies.end(),
+                     [](Body const& body) { return body.off_lattice; });
 }
 
 /// Rejects features of a case that the formulation does not support.
@@ -55,7 +56,7 @@ void check_abilities(FormulationInfo const& info, Assembly const& assembly) {
   if (!info.cracks && !assembly.particles.cracks.empty()) problems.add({}, refusal(info, "cracks"));
   if (!info.mirrors && !assembly.mirrors.empty()) problems.add({}, refusal(info, "mirrors"));
   if (!info.parts && !assembly.parts.empty()) problems.add({}, refusal(info, "parts"));
-  if (!info.scattered && has_scattered(assembly.particles)) problems.add({}, refusal(info, "rings"));
+  if (!info.off_lattice && has_scattered(assembly.particles)) problems.add({}, refusal(info, "rings"));
   if (!info.contact && !assembly.rigid_shapes.empty()) problems.add({}, refusal(info, "rigid shapes"));
   problems.raise_if_any();
 }
@@ -66,7 +67,7 @@ std::unique_ptr<Formulation> make_one(Assembly const& assembly) {
   for (auto const& entry : all) {
     if (entry.info.name != name) continue;
     check_abilities(entry.info, assembly);
-    return entry.info.observed_by_share ? entry.make(assembly) : observed_by_first(entry.make(assembly));
+    return entry.info.observes_locally ? entry.make(assembly) : observe_on_root(entry.make(assembly));
   }
   throw InputError("no formulation is named '" + name + "'");
 }
@@ -114,12 +115,12 @@ double number_of(FormulationSpec const& spec, std::string_view name, double othe
   return given != spec.numbers.end() ? given->second : otherwise;
 }
 
-std::vector<Doubt> doubts(Assembly const& assembly) {
-  std::vector<Doubt> found;
+std::vector<SettingWarning> setting_warnings(Assembly const& assembly) {
+  std::vector<SettingWarning> found;
   for (std::size_t b = 0; b < assembly.formulations.size(); ++b)
     for (auto const& entry : all) {
-      BodyDoubts about(assembly, b, found);
-      if (entry.info.name == assembly.formulations[b].name) entry.doubt(assembly, b, about);
+      BodyWarnings about(assembly, b, found);
+      if (entry.info.name == assembly.formulations[b].name) entry.setting_warning(assembly, b, about);
     }
   return found;
 }
@@ -133,8 +134,8 @@ std::unique_ptr<Formulation> make_formulation(Assembly const& assembly) {
   if (turning && assembly.surfaces.empty())
     throw InputError("rigid shapes that are free or turn push surfaces of bodies, and no body has one");
   if (!mixed && assembly.surfaces.empty()) return make_one(assembly);
-  std::vector<EnsemblePart> parts = split_by_formulation(assembly);
-  bool const contact = std::any_of(parts.begin(), parts.end(), [](EnsemblePart const& part) {
+  std::vector<FormulationGroup> parts = split_by_formulation(assembly);
+  bool const contact = std::any_of(parts.begin(), parts.end(), [](FormulationGroup const& part) {
     auto const info = find_formulation(part.formulation);
     return info && info->contact;
   });
@@ -142,8 +143,8 @@ std::unique_ptr<Formulation> make_formulation(Assembly const& assembly) {
     throw InputError(refusal(*find_formulation(parts.front().formulation), "rigid shapes"));
   std::vector<std::unique_ptr<Formulation>> made;
   made.reserve(parts.size());
-  for (EnsemblePart const& part : parts) made.push_back(make_one(part.assembly));
-  return make_ensemble(assembly, std::move(parts), std::move(made));
+  for (FormulationGroup const& part : parts) made.push_back(make_one(part.assembly));
+  return make_coupled_formulations(assembly, std::move(parts), std::move(made));
 }
 
 }  // namespace piola

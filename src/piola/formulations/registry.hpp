@@ -36,18 +36,18 @@ struct FormulationInfo {
   std::span<DiagnosticInfo const> diagnostics = {};  ///< all columns of Diagnostics::more
   bool cracks = false;                               ///< whether bodies may have cracks
   bool mirrors = true;                               ///< whether bodies may have mirror planes
-  bool scattered = true;          ///< whether bodies may be packed or arranged in rings instead of a lattice
+  bool off_lattice = true;        ///< whether bodies may be packed or arranged in rings instead of a lattice
   bool outline = false;           ///< whether it needs the outline of bodies: no points from files
   bool contact = false;           ///< whether it has kernel contact: contact rules and rigid shapes
-  bool pushable = false;          ///< whether surface contact may push its bodies between steps
+  bool can_be_coupled = false;    ///< whether surface contact may push its bodies between steps
   bool parts = false;             ///< whether bodies may consist of parts of several materials
   bool cell_volumes = false;      ///< whether jittered particles get the volumes of their Voronoi cells
   bool surface_supports = false;  ///< whether supports can hold the surface itself, where particles lie inside
   bool on_ranks = false;          ///< whether its bodies are distributed over ranks; else each rank computes all of
                                   ///< them
-  bool tells_of_space = false;    ///< whether communication includes a spatial halo, which changes with the positions
+  bool has_spatial_halo = false;  ///< whether communication includes a spatial halo, which changes with the positions
   /// Whether observers evaluate local particles on each rank; else the state is gathered on rank 0 first.
-  bool observed_by_share = false;
+  bool observes_locally = false;
   std::span<FormulaInfo const> formulas = {};  ///< optional formulas
 };
 

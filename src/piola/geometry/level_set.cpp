@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/level_set.hpp"
-#include "piola/exec/set_up_loop.hpp"
+#include "piola/exec/host_loops.hpp"
 #include "piola/geometry/tetrahedra.hpp"
 #include <algorithm>
 #include <cmath>
@@ -68,7 +68,7 @@ class LevelSet final : public Solid {
     };
     Triangles const triangles = level_surface(value, box_, edge, dimension_);
     std::vector<Vec<3>> corner(triangles.corner.size());
-    exec_host::for_each_in_set_up(static_cast<Index>(corner.size()), [&](Index i) {
+    exec_host::parallel_for(static_cast<Index>(corner.size()), [&](Index i) {
       auto const k = static_cast<std::size_t>(i);
       corner[k] = onto(triangles.corner[k]);
     });

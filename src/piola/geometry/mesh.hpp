@@ -21,7 +21,7 @@ struct MeshOptions {
   double largest_hole = 0;                      ///< for Repair::holes [m]
   double merge = 0;                             ///< corners nearer than this become one [m]; 0: only equal ones
   double spacing = 0;                           ///< of the particles to come [m]; 0: no remarks about it
-  double patience = 5;                          ///< time limit of reading, plus 1 s per MB [s]; 0: none
+  double shutdown_timeout = 5;                  ///< time limit of reading, plus 1 s per MB [s]; 0: none
 };
 
 /// Result of reading a mesh. Texts begin with the name of the file, without its folder.
@@ -29,13 +29,14 @@ struct MeshReport {
   std::vector<std::string> problems;  ///< all errors that forbid the use of the mesh
   std::vector<std::string> notes;     ///< remarks that forbid nothing
   std::int64_t corners = 0, faces = 0, shells = 0;
-  std::int64_t dropped = 0;                        ///< faces with equal corners
-  std::int64_t open = 0, crowded = 0, turned = 0;  ///< edges: used once, more than twice, between faces turned about
-  std::int64_t mended = 0;                         ///< faces turned by Repair::orient, Repair::faces
-  std::int64_t merged = 0;                         ///< corners merged with nearby ones
-  std::int64_t twice = 0, without_area = 0;        ///< faces removed by Repair::faces
-  double longest_hole = 0;                         ///< [m]
-  double volume = 0, area = 0;                     ///< [m3, m2]
+  std::int64_t dropped = 0;  ///< faces with equal corners
+  std::int64_t open = 0, neighbour_overflow = 0,
+               turned = 0;                   ///< edges: used once, more than twice, between faces turned about
+  std::int64_t mended = 0;                   ///< faces turned by Repair::orient, Repair::faces
+  std::int64_t merged = 0;                   ///< corners merged with nearby ones
+  std::int64_t twice = 0, without_area = 0;  ///< faces removed by Repair::faces
+  double longest_hole = 0;                   ///< [m]
+  double volume = 0, area = 0;               ///< [m3, m2]
   Bounds bounds;
 };
 

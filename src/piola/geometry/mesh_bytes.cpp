@@ -123,7 +123,7 @@ std::string bytes_of_mesh(std::string const& path, std::vector<std::string>& pro
   return bytes;
 }
 
-void check_promises(std::string_view bytes, std::string const& name, std::vector<std::string>& problems) {
+void check_declared_sizes(std::string_view bytes, std::string const& name, std::vector<std::string>& problems) {
   std::string const format = mesh_format(name);
   if (bytes.find_first_not_of(" \t\r\n") == std::string_view::npos)
     problems.push_back(fmt::format("{}: is empty - export it again", name));

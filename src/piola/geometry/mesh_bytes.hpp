@@ -17,6 +17,6 @@ std::string bytes_of_mesh(std::string const& path, std::vector<std::string>& pro
 
 /// Refuses files that are no mesh by their name or that promise more than they hold. What passes cannot make a reader
 /// reserve memory out of proportion to the size of the file.
-void check_promises(std::string_view bytes, std::string const& name, std::vector<std::string>& problems);
+void check_declared_sizes(std::string_view bytes, std::string const& name, std::vector<std::string>& problems);
 
 }  // namespace piola::geometry

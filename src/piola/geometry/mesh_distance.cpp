@@ -107,14 +107,14 @@ struct MeshDistance::Search {
     nearest.foot = foot;
   }
 
-  struct Offers {
+  struct CandidateFacets {
     Search const* search;
     Nearest best;
     double slack;  ///< what single precision may be wrong by, in the scaled box
   };
 
   static bool offer(RTCPointQueryFunctionArguments* arguments) {
-    auto& offers = *static_cast<Offers*>(arguments->userPtr);
+    auto& offers = *static_cast<CandidateFacets*>(arguments->userPtr);
     int const face = static_cast<int>(arguments->primID);
     if (offers.search->flat[face]) return false;
     double const before = offers.best.square;
@@ -134,7 +134,7 @@ MeshDistance::Search::Nearest MeshDistance::Search::nearest_to(Vec<3> const& X) 
   constexpr double farthest = 1e4;
   Vec<3> const q = scaled(X);
   double const reach = std::max({std::abs(q[0]), std::abs(q[1]), std::abs(q[2])});
-  Offers offers{this, {X}, 1e-6 * (1 + reach)};
+  CandidateFacets offers{this, {X}, 1e-6 * (1 + reach)};
   if (reach < farthest) {
     RTCPointQuery query{};
     query.x = static_cast<float>(q[0]);

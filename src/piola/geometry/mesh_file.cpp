@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/mesh_file.hpp"
-#include "piola/base/child.hpp"
-#include "piola/base/packed.hpp"
+#include "piola/base/byte_stream.hpp"
+#include "piola/base/child_process.hpp"
 #include "piola/base/text.hpp"
 #include "piola/geometry/mesh_bytes.hpp"
 #include "piola/geometry/mesh_polygon.hpp"
@@ -169,7 +169,7 @@ ReadSurface read_by_assimp(std::string_view bytes, std::string const& name, doub
 }
 
 std::string packed(ReadSurface const& read) {
-  Packed all;
+  ByteWriter all;
   all.put(read.surface.X);
   all.put(read.surface.corner);
   all.put(read.surface.group);
@@ -180,7 +180,7 @@ std::string packed(ReadSurface const& read) {
 }
 
 bool take_apart(std::string_view bytes, ReadSurface& read) {
-  Unpacked all(bytes);
+  ByteReader all(bytes);
   Surface& surface = read.surface;
   if (!all.take(surface.X) || !all.take(surface.corner) || !all.take(surface.group) || !all.take(surface.group_name) ||
       !all.take(read.problems) || !all.take(read.notes))
@@ -196,11 +196,11 @@ bool take_apart(std::string_view bytes, ReadSurface& read) {
 
 /// In a child process, unless there is no limit to patience: what crashes or hangs the reader is a problem of the file.
 ReadSurface read_bounded(std::string_view bytes, std::string const& name, MeshOptions const& options) {
-  if (!(options.patience > 0)) return read_by_assimp(bytes, name, options.scale);
+  if (!(options.shutdown_timeout > 0)) return read_by_assimp(bytes, name, options.scale);
   // Two hundred times what good files take; 60 bytes in memory for each one in the file.
-  ChildLimits const limits{options.patience + 1e-6 * static_cast<double>(bytes.size()),
+  ChildLimits const limits{options.shutdown_timeout + 1e-6 * static_cast<double>(bytes.size()),
                            std::size_t{1'000'000'000} + 60 * bytes.size()};
-  ChildAnswer answer = done_by_child([&] { return packed(read_by_assimp(bytes, name, options.scale)); }, limits);
+  ChildAnswer answer = run_in_child_process([&] { return packed(read_by_assimp(bytes, name, options.scale)); }, limits);
   ReadSurface read;
   if (answer.trouble.empty() && !take_apart(answer.bytes, read)) answer.trouble = "answered nonsense";
   if (!answer.trouble.empty())
@@ -213,7 +213,7 @@ ReadSurface read_bounded(std::string_view bytes, std::string const& name, MeshOp
 
 Surface surface_of_bytes(std::string_view bytes, std::string const& name, MeshOptions const& options,
                          std::vector<std::string>& problems, std::vector<std::string>& notes) {
-  check_promises(bytes, name, problems);
+  check_declared_sizes(bytes, name, problems);
   if (!problems.empty()) return {};
   ReadSurface read = read_bounded(bytes, name, options);
   problems = std::move(read.problems);

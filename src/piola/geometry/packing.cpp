@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/packing.hpp"
-#include "piola/exec/set_up_loop.hpp"
-#include "piola/math/places.hpp"
+#include "piola/exec/host_loops.hpp"
+#include "piola/math/array_conversion.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <cmath>
@@ -71,8 +71,8 @@ class Start {
   std::vector<Point> deepest(std::size_t wanted) const {
     Index const rows = count_[1] * count_[2];
     std::vector<std::vector<std::pair<double, Point>>> found(static_cast<std::size_t>(rows));
-    exec_host::for_each_part_in_set_up(rows, rows * count_[0],
-                                       [&](Index row) { find_row(row, found[static_cast<std::size_t>(row)]); });
+    exec_host::parallel_for_chunks(rows, rows * count_[0],
+                                   [&](Index row) { find_row(row, found[static_cast<std::size_t>(row)]); });
     std::vector<std::pair<double, Point>> all;
     for (auto const& row : found) all.insert(all.end(), row.begin(), row.end());
     std::vector<std::size_t> order(all.size());
@@ -180,11 +180,11 @@ class Packer {
       });
     };
     begin_.assign(X_.size() + 1, 0);
-    exec_host::for_each_in_set_up(size(),
-                                  [&](Index a) { each(a, [&](Index) { ++begin_[static_cast<std::size_t>(a) + 1]; }); });
+    exec_host::parallel_for(size(),
+                            [&](Index a) { each(a, [&](Index) { ++begin_[static_cast<std::size_t>(a) + 1]; }); });
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     neighbour_.resize(static_cast<std::size_t>(begin_.back()));
-    exec_host::for_each_in_set_up(size(), [&](Index a) {
+    exec_host::parallel_for(size(), [&](Index a) {
       auto at = static_cast<std::size_t>(begin_[static_cast<std::size_t>(a)]);
       each(a, [&](Index b) { neighbour_[at++] = b; });
     });
@@ -193,7 +193,7 @@ class Packer {
   double sweep(CellGrid const& surface) {
     next_.resize(X_.size());
     moved_.resize(X_.size());
-    exec_host::for_each_in_set_up(size(), [&](Index a) {
+    exec_host::parallel_for(size(), [&](Index a) {
       auto const i = static_cast<std::size_t>(a);
       Vec<3> const x = vector_of(X_[i]);
       Vec<3> y = x + step_of(a, surface);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/primitives.hpp"
-#include "piola/geometry/placed.hpp"
-#include "piola/geometry/swept.hpp"
+#include "piola/geometry/extruded_revolved.hpp"
+#include "piola/geometry/transformed_solid.hpp"
 #include <cmath>
 #include <numbers>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/tetrahedra.hpp"
-#include "piola/exec/set_up_loop.hpp"
+#include "piola/exec/host_loops.hpp"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -50,12 +50,12 @@ class LevelGrid {
     std::vector<double> values(in_plane(0, cubes_[1] + 1), 1.0);
     bool const outside = dimension_ == 3 && (k == 0 || k == cubes_[2]);
     if (outside) return values;
-    exec_host::for_each_part_in_set_up(static_cast<Index>(cubes_[1] + 1), static_cast<Index>(values.size()),
-                                       [&](Index row) {
-                                         if (row == 0 || row == cubes_[1]) return;
-                                         for (std::int64_t i = 1; i < cubes_[0]; ++i)
-                                           values[in_plane(i, row)] = value_(place({i, row, k}));
-                                       });
+    exec_host::parallel_for_chunks(static_cast<Index>(cubes_[1] + 1), static_cast<Index>(values.size()),
+                                   [&](Index row) {
+                                     if (row == 0 || row == cubes_[1]) return;
+                                     for (std::int64_t i = 1; i < cubes_[0]; ++i)
+                                       values[in_plane(i, row)] = value_(place({i, row, k}));
+                                   });
     return values;
   }
 

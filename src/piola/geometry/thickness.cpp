@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/thickness.hpp"
-#include "piola/exec/set_up_loop.hpp"
+#include "piola/exec/host_loops.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -66,7 +66,7 @@ std::optional<Thinnest> thinnest(Solid const& solid, double edge) {
   std::vector<Thinnest> found(std::min(pieces.size(), together));
   for (std::size_t first = 0; first < pieces.size(); first += together) {
     std::size_t const count = std::min(together, pieces.size() - first);
-    exec_host::for_each_in_set_up(static_cast<Index>(count), [&](Index k) {
+    exec_host::parallel_for(static_cast<Index>(count), [&](Index k) {
       Thinnest& one = found[static_cast<std::size_t>(k)];
       one.thickness = ray.from(pieces[first + static_cast<std::size_t>(k)].X, best.thickness, one.X);
     });

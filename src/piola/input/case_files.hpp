@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/input/document.hpp"
 #include "piola/input/section.hpp"
 #include "piola/setup/shapes.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/base/errors.hpp"
 #include "piola/base/expression.hpp"
 #include "piola/base/identity.hpp"
-#include "piola/base/problems.hpp"
 #include "piola/formulations/assembly.hpp"
 #include "piola/input/guard_limits.hpp"
 #include "piola/setup/faces.hpp"
@@ -29,7 +29,7 @@ struct RunSpec {
   double damping = 0;            ///< rate at which velocities decay [1/s]
   bool relax = false;            ///< dynamic relaxation: ends at rest
   double rest = 1e-3;            ///< relax: residual force at rest / its maximum in the run
-  std::string machine = "auto";  ///< instruction set: auto, scalar, v3, v4
+  std::string backend = "auto";  ///< instruction set: auto, scalar, v3, v4
   Repartition repartition;       ///< on ranks
   GuardLimits guards;
   Places places;
@@ -184,7 +184,7 @@ struct ProbeSpec {
 
 /// [[quantity]]: a number of summary.json, taken from a column of history.csv.
 struct QuantitySpec {
-  enum class Take {
+  enum class Statistic {
     maximum,
     minimum,
     final_value,
@@ -205,7 +205,7 @@ struct QuantitySpec {
   };
   std::string name;
   std::string column;
-  Take take = Take::maximum;
+  Statistic take = Statistic::maximum;
   double threshold = 0;                 ///< first_time_above, first_time_below [SI]
   double time = 0;                      ///< at_time [s]
   std::optional<Expression> reference;  ///< mean_absolute_difference, relative_error: formula in t
@@ -214,9 +214,9 @@ struct QuantitySpec {
   double until = std::numeric_limits<double>::infinity();  ///< and up to this one; change: end [s]
 };
 
-/// How bodies are drawn in pictures: the words of output/appearance.hpp.
+/// How bodies are drawn in pictures: the words of drawing/appearance.hpp.
 struct AppearanceSpec {
-  struct OfBody {
+  struct BodyInput {
     std::string body, as;
     Place place;
   };
@@ -225,7 +225,7 @@ struct AppearanceSpec {
     bool ghost = false, in_reference = false;
   };
   std::string as = "auto";
-  std::vector<OfBody> of_body = {};
+  std::vector<BodyInput> of_body = {};
   bool outline = true;  ///< of the reference shape
   std::optional<Cut> cut = {};
 };
@@ -264,8 +264,8 @@ struct PicturesSpec : PictureSpec {
 };
 
 /// Whether what is taken is an instant [s].
-inline bool takes_instant(QuantitySpec::Take take) {
-  using enum QuantitySpec::Take;
+inline bool needs_time(QuantitySpec::Statistic take) {
+  using enum QuantitySpec::Statistic;
   return take == time_of_first_peak || take == time_of_maximum || take == time_of_minimum || take == first_time_above ||
          take == first_time_below;
 }

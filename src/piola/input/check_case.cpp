@@ -128,13 +128,13 @@ std::vector<std::int64_t> supported_particles(ParticleSet const& particles, Body
                                               SupportSpec const& support) {
   if (!support.patch) return select_particles(particles, body, support.where ? &*support.where : nullptr);
   std::vector<std::int64_t> ids;
-  for (FaceShare const& share : supported_shares(particles, body, support)) ids.push_back(share.particle);
+  for (FaceWeight const& share : supported_weights(particles, body, support)) ids.push_back(share.particle);
   return ids;
 }
 
-std::vector<FaceShare> supported_shares(ParticleSet const& particles, Body const& body, SupportSpec const& support) {
-  auto shares = face_shares(support.shape, particles, body, *support.patch);
-  std::erase_if(shares, [&](FaceShare const& share) {
+std::vector<FaceWeight> supported_weights(ParticleSet const& particles, Body const& body, SupportSpec const& support) {
+  auto shares = face_weights(support.shape, particles, body, *support.patch);
+  std::erase_if(shares, [&](FaceWeight const& share) {
     return support.where && (*support.where)(particles.X[static_cast<std::size_t>(share.particle)]) == 0;
   });
   return shares;
@@ -143,13 +143,13 @@ std::vector<FaceShare> supported_shares(ParticleSet const& particles, Body const
 std::vector<std::int64_t> loaded_particles(ParticleSet const& particles, Body const& body, LoadSpec const& load) {
   if (!load.on_face()) return select_particles(particles, body, load.where ? &*load.where : nullptr);
   std::vector<std::int64_t> ids;
-  for (FaceShare const& share : loaded_shares(particles, body, load)) ids.push_back(share.particle);
+  for (FaceWeight const& share : loaded_weights(particles, body, load)) ids.push_back(share.particle);
   return ids;
 }
 
-std::vector<FaceShare> loaded_shares(ParticleSet const& particles, Body const& body, LoadSpec const& load) {
-  auto shares = face_shares(load.shape, particles, body, load.face);
-  std::erase_if(shares, [&](FaceShare const& share) {
+std::vector<FaceWeight> loaded_weights(ParticleSet const& particles, Body const& body, LoadSpec const& load) {
+  auto shares = face_weights(load.shape, particles, body, load.face);
+  std::erase_if(shares, [&](FaceWeight const& share) {
     return load.where && (*load.where)(particles.X[static_cast<std::size_t>(share.particle)]) == 0;
   });
   return shares;

@@ -28,7 +28,7 @@ std::vector<std::int64_t> supported_particles(ParticleSet const& particles, Body
                                               SupportSpec const& support);
 
 /// Particles along the patch that a support holds, with their parts of its area.
-std::vector<FaceShare> supported_shares(ParticleSet const& particles, Body const& body, SupportSpec const& support);
+std::vector<FaceWeight> supported_weights(ParticleSet const& particles, Body const& body, SupportSpec const& support);
 /// Whether a support holds a patch itself, if its formulation supports that, instead of the particles along it.
 bool holds_surface(CaseSpec const& spec, SupportSpec const& support);
 
@@ -43,6 +43,6 @@ std::vector<std::int64_t> particles_ahead(ParticleSet const& particles, Body con
 /// Ids of the particles that a load acts on; of a traction or a pressure, only those of its face.
 std::vector<std::int64_t> loaded_particles(ParticleSet const& particles, Body const& body, LoadSpec const& load);
 /// Particles that a traction or a pressure acts on, with their parts of the area of the face.
-std::vector<FaceShare> loaded_shares(ParticleSet const& particles, Body const& body, LoadSpec const& load);
+std::vector<FaceWeight> loaded_weights(ParticleSet const& particles, Body const& body, LoadSpec const& load);
 
 }  // namespace piola

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
-#include "piola/input/formulations_of.hpp"
+#include "piola/input/contact_capabilities.hpp"
 #include "piola/input/region_checks.hpp"
 #include <algorithm>
 
@@ -12,7 +12,7 @@ constexpr std::string_view who_has_one =
 
 /// Error text if no body has a contact surface, because of its formulation or its settings.
 std::string no_surface(CaseSpec const& spec, FormulationInfo const& first, std::string const& what) {
-  if (!first.pushable) return refusal(first, what);
+  if (!first.can_be_coupled) return refusal(first, what);
   return what + " found no surface: body " + in_quotes(spec.bodies[0].name) + " has none, " +
          why_without_surface(spec, 0) + std::string(who_has_one) + " - remove it, or change the body";
 }
@@ -21,12 +21,12 @@ std::string no_surface(CaseSpec const& spec, FormulationInfo const& first, std::
 void check_contact_ability(CaseSpec const& spec, Problems& problems) {
   auto const all = formulations_of(spec);
   bool none = !all.empty();
-  for (std::size_t b = 0; b < spec.bodies.size(); ++b) none = none && !meets_rigids(spec, b);
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) none = none && !has_rigid_contact(spec, b);
   bool const off = spec.contact && spec.contact->law == ContactRule::Law::none;
   if (!none || (off && spec.rigids.empty())) return;
   if (spec.contact && spec.contact->law == ContactRule::Law::surface && all.front().contact) return;  // reported there
   bool const able =
-      off && std::any_of(all.begin(), all.end(), [](FormulationInfo const& info) { return info.pushable; });
+      off && std::any_of(all.begin(), all.end(), [](FormulationInfo const& info) { return info.can_be_coupled; });
   for (RigidSpec const& rigid : spec.rigids)
     problems.add(place_of(rigid.places, ""),
                  able ? "the rigid shape " + in_quotes(rigid.name) +
@@ -67,7 +67,8 @@ void check_contact_pair(CaseSpec const& spec, ContactPairSpec const& pair, Probl
                               " has no surface by which others could push it, " + why_without_surface(spec, body) +
                               std::string(who_has_one) + " - change the body, or remove " +
                               (pair.friction.any() ? "friction" : "the table"));
-  bool const own = std::all_of(bodies.begin(), bodies.end(), [&](std::size_t b) { return knows_contact(spec, b); });
+  bool const own =
+      std::all_of(bodies.begin(), bodies.end(), [&](std::size_t b) { return has_kernel_contact(spec, b); });
   bool const self = bodies.size() == 2 && bodies[0] == bodies[1];
   if (own && !bodies.empty() && !self && !left_alone)
     problems.add(
@@ -106,12 +107,12 @@ void check_some_surfaces(CaseSpec const& spec, Problems& problems) {
 /// Reports friction or self-contact if no bodies are in surface contact.
 void check_surface_settings(CaseSpec const& spec, Problems& problems) {
   if (!spec.contact || spec.contact->law == ContactRule::Law::none) return;
-  if (surfaces_meet(spec)) return check_some_surfaces(spec, problems);
+  if (has_surface_contact(spec)) return check_some_surfaces(spec, problems);
   bool const rubs = spec.contact->friction.kinetic > 0 && (spec.bodies.size() > 1 || !spec.rigids.empty());
   if (!rubs && !spec.contact->self) return;
   char const* const key = rubs ? "friction" : "self";
   bool able = false;  // otherwise reported already
-  for (std::size_t b = 0; b < spec.bodies.size(); ++b) able = able || meets_rigids(spec, b);
+  for (std::size_t b = 0; b < spec.bodies.size(); ++b) able = able || has_rigid_contact(spec, b);
   for (std::size_t b = 0; able && b < spec.bodies.size(); ++b)
     if (!has_surface(spec, b)) refuse_setting(spec, key, b, problems);
 }
@@ -123,10 +124,10 @@ void check_strangers(CaseSpec const& spec, Problems& problems) {
     std::vector<std::string> through;
     std::string const& name = spec.bodies[b].name;
     for (std::size_t a = 0; a < spec.bodies.size(); ++a)
-      if (a != b && !kept_apart(spec, a, b) && !is_off(spec, name, spec.bodies[a].name))
+      if (a != b && !has_contact_between(spec, a, b) && !is_off(spec, name, spec.bodies[a].name))
         through.push_back(in_quotes(spec.bodies[a].name));
     for (RigidSpec const& rigid : spec.rigids)
-      if (!rigid.turns() && spec.bodies.size() > 1 && !meets_rigids(spec, b) && !is_off(spec, name, rigid.name))
+      if (!rigid.turns() && spec.bodies.size() > 1 && !has_rigid_contact(spec, b) && !is_off(spec, name, rigid.name))
         through.push_back("the rigid shape " + in_quotes(rigid.name));
     // Reports the body without a surface, not its partner.
     if (through.empty() || has_surface(spec, b)) continue;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
 #include "piola/formulations/registry.hpp"
-#include "piola/input/formulations_of.hpp"
+#include "piola/input/contact_capabilities.hpp"
 #include "piola/input/region_checks.hpp"
 #include "piola/setup/cracks.hpp"
 #include <algorithm>
@@ -52,8 +52,8 @@ void check_abilities(CaseSpec const& spec, Problems& problems) {
   for (BodySpec const& body : spec.bodies) {
     auto const info = find_formulation(body.formulation.name);
     bool const packed = body.shape.arrangement == ShapeSpec::Arrangement::packed;
-    bool const scattered = body.shape.arrangement != ShapeSpec::Arrangement::lattice;
-    if (info && scattered && !info->scattered)
+    bool const off_lattice = body.shape.arrangement != ShapeSpec::Arrangement::lattice;
+    if (info && off_lattice && !info->off_lattice)
       problems.add(place_of(body.places, "shape"), refusal(*info, packed ? "packed clouds" : "rings"));
     if (info && info->outline && body.shape.kind == ShapeSpec::Kind::points)
       problems.add(place_of(body.places, "shape"), refusal(*info, "points from files"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
-#include "piola/input/formulations_of.hpp"
+#include "piola/input/contact_capabilities.hpp"
 #include "piola/input/region_checks.hpp"
 #include "piola/mechanics/contact/rigid_pairs.hpp"
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
-#include "piola/input/formulations_of.hpp"
+#include "piola/input/contact_capabilities.hpp"
 #include "piola/input/region_checks.hpp"
-#include "piola/particles/body_ends.hpp"
+#include "piola/particles/body_extents.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -20,7 +20,7 @@ struct SymmetryPlace {
 SymmetryPlace place_of_plane(MirrorSpec const& mirror, ParticleSet const& particles, Body const& body) {
   auto const axis = static_cast<std::size_t>(mirror.face.axis);
   bool const upper = mirror.face.upper;
-  return {axis, ends_of(particles, body).at[axis][upper ? 1 : 0], upper ? -1.0 : 1.0};
+  return {axis, extents_of(particles, body).at[axis][upper ? 1 : 0], upper ? -1.0 : 1.0};
 }
 
 /// How far the particles of a body stay off a plane, on its side, in spacings; negative: beyond it.

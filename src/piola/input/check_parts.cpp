@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
 #include "piola/input/region_checks.hpp"
-#include "piola/particles/parts.hpp"
+#include "piola/particles/part_properties.hpp"
 #include <algorithm>
 
 namespace piola {
@@ -43,7 +43,7 @@ void check_parts(CaseSpec const& spec, ParticleSet const& particles, Problems& p
       problems.add(place_of(from.parts.front().places, ""), refusal(*info, "parts"));
       continue;
     }
-    auto const shares = part_facts(particles, body, from.parts.size());
+    auto const shares = part_properties(particles, body, from.parts.size());
     for (std::size_t k = 0; k < from.parts.size(); ++k) {
       PartSpec const& part = from.parts[k];
       Place const place = place_of(part.places, "where");

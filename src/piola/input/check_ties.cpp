@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
 #include "piola/input/check_case.hpp"
-#include "piola/input/formulations_of.hpp"
+#include "piola/input/contact_capabilities.hpp"
 #include "piola/input/region_checks.hpp"
-#include "piola/materials/solids.hpp"
-#include "piola/math/places.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
+#include "piola/math/array_conversion.hpp"
 #include "piola/setup/contact_surface.hpp"
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,7 @@ std::string why_not(CaseSpec const& spec, std::size_t body) {
   BodySpec const& b = spec.bodies[body];
   auto const info = find_formulation(b.formulation.name);
   if (can_have_surface(spec, body)) return "";
-  if (!info || !info->pushable) return "the formulation " + b.formulation.name + " cannot be pushed";
+  if (!info || !info->can_be_coupled) return "the formulation " + b.formulation.name + " cannot be pushed";
   if (info->name == "taylor_sph" || b.shape.kind == ShapeSpec::Kind::points) return why_without_surface(spec, body);
   bool const mirrored = std::any_of(spec.mirrors.begin(), spec.mirrors.end(),
                                     [&](MirrorSpec const& mirror) { return mirror.body == b.name && mirror.skew; });
@@ -42,7 +42,7 @@ std::string why_not(CaseSpec const& spec, std::size_t body) {
 
 /// adaptle among itself keeps its bodies from shapes that do not turn by the kernel, held points, too.
 void check_own_contact(CaseSpec const& spec, TieSpec const& tie, Problems& problems) {
-  if (!tie.rigid || spec.rigids[*tie.rigid].turns() || !knows_contact(spec, tie.bodies[0])) return;
+  if (!tie.rigid || spec.rigids[*tie.rigid].turns() || !has_kernel_contact(spec, tie.bodies[0])) return;
   problems.add(place_of(tie.places, "between"),
                "the tie " + in_quotes(tie.name) + " holds body " + in_quotes(spec.bodies[tie.bodies[0]].name) +
                    " to a rigid shape from which adaptle keeps it by a contact of its own (allowed: contact by "
@@ -117,16 +117,16 @@ std::vector<contact::Ties::Found> found_by_ties(CaseSpec const& spec, ParticleSe
     surfaces[b] = contact_surface(spec.bodies[b].shape, particles, particles.bodies[b]);
     surfaces[b].modulus = moduli_of(spec.bodies[b]).wave();
   }
-  contact::Carriers const carriers(particles, surfaces);
+  contact::HostParticles const hosts(particles, surfaces);
   std::vector<Vec<3>> x;
-  for (auto const id : carriers.ids()) {
+  for (auto const id : hosts.ids()) {
     auto const i = static_cast<std::size_t>(id);
     auto const at = start_of(spec.bodies[static_cast<std::size_t>(particles.body[i])], particles.X[i]);
     x.push_back(vector_of(at));
   }
   std::vector<contact::RigidSurface> rigids;
   for (RigidSpec const& rigid : spec.rigids) rigids.push_back(contact::surface_of(rigid, particles.dimension));
-  return contact::Ties({spec.ties.begin(), spec.ties.end()}, particles, surfaces, carriers, x, rigids).found();
+  return contact::Ties({spec.ties.begin(), spec.ties.end()}, particles, surfaces, hosts, x, rigids).found();
 }
 
 void check_ties(CaseSpec const& spec, ParticleSet const& particles, Problems& problems) {

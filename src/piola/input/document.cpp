@@ -3,7 +3,7 @@
 #include "piola/input/document.hpp"
 #include "piola/base/text.hpp"
 #include "piola/base/units.hpp"
-#include "piola/input/document_guard.hpp"
+#include "piola/input/document_limits.hpp"
 #include "piola/input/toml_library.hpp"
 #include <algorithm>
 #include <sstream>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include <cstdint>
 #include <optional>
 #include <span>

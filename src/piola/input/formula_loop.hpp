@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/set_up_loop.hpp"
+#include "piola/exec/host_loops.hpp"
 #include "piola/exec/threads.hpp"
 #include "piola/particles/particle_set.hpp"
 #include <algorithm>
@@ -13,13 +13,13 @@ namespace piola {
 template <class Formulas, class F>
 void for_each_with_formulas(Formulas const& formulas, Body const& body, F const& f) {
   auto const particles = static_cast<Index>(body.last - body.first);
-  Index const parts = exec_host::team(particles);
+  Index const parts = exec_host::team_size(particles);
   if (parts <= 1) {  // every copy compiles its formula again
     for (auto id = body.first; id < body.last; ++id) f(formulas, static_cast<std::size_t>(id));
     return;
   }
   std::vector<Formulas> const copies(static_cast<std::size_t>(parts), formulas);
-  exec_host::for_each_part_in_set_up(parts, particles, [&](Index part) {
+  exec_host::parallel_for_chunks(parts, particles, [&](Index part) {
     auto const share = [&](Index k) { return body.first + static_cast<std::int64_t>(particles) * k / parts; };
     for (auto id = share(part); id < share(part + 1); ++id)
       f(copies[static_cast<std::size_t>(part)], static_cast<std::size_t>(id));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/identify.hpp"
 #include "piola/base/version.hpp"
-#include "piola/exec/instruction_sets.hpp"
+#include "piola/exec/backend_registry.hpp"
 #include "piola/input/case_files.hpp"
 #include "piola/input/case_spec.hpp"
 #include "piola/input/document.hpp"
@@ -38,8 +38,8 @@ Identity identity_of(CaseSpec const& spec) {
   for (CaseFile const& file : files_of(spec)) identity.files.emplace_back(file.given, digest_of_file(file.path));
   std::string const build = build_id();
   identity.program = fmt::format("{} build {}", version(), build);
-  identity.machine = exec_host::machine_text(spec.run.machine);
-  std::string all = identity.case_text + "\n" + identity.program + "\n" + identity.machine;
+  identity.backend = exec_host::backend_text(spec.run.backend);
+  std::string all = identity.case_text + "\n" + identity.program + "\n" + identity.backend;
   bool known = !build.empty();
   for (auto const& [name, digest] : identity.files) {
     all += "\n" + name + " " + digest;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
 #include "piola/input/document.hpp"
-#include "piola/input/document_guard.hpp"
+#include "piola/input/document_limits.hpp"
 #include <algorithm>
 #include <charconv>
 

@@ -4,11 +4,11 @@
 #include "piola/base/text.hpp"
 #include "piola/input/case_files.hpp"
 #include "piola/input/check_case.hpp"
-#include "piola/input/closeness.hpp"
-#include "piola/input/document_guard.hpp"
+#include "piola/input/clearance.hpp"
+#include "piola/input/document_limits.hpp"
 #include "piola/input/identify.hpp"
 #include "piola/input/sections.hpp"
-#include "piola/setup/solid_bodies.hpp"
+#include "piola/setup/packed_bodies.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <unistd.h>

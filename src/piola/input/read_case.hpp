@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/input/case_spec.hpp"
 #include "piola/particles/particle_set.hpp"
-#include "piola/setup/solid_bodies.hpp"
+#include "piola/setup/packed_bodies.hpp"
 #include <cstdint>
 #include <filesystem>
 #include <functional>

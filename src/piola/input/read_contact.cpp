@@ -14,7 +14,7 @@ void refuse_for(Section const& section, std::string_view key, bool refused, std:
 }
 
 void read_stiffness(Section const& section, int dimension, ContactRule& contact) {
-  if (contact.law != Law::printed) return;
+  if (contact.law != Law::as_published) return;
   std::string const unit = dimension == 1 ? "Pa/m" : "Pa/m^" + std::to_string(dimension);
   if (auto const value = section.find("stiffness")) {
     if (auto const number = read_number(*value, unit, positive, section.problems())) contact.stiffness = *number;
@@ -43,7 +43,7 @@ void read_friction(Section const& section, contact::FrictionLaw& friction) {
 
 /// Index of a word of the manual, whose order is not that of the enumerators.
 void read_law(Section const& section, Law& law) {
-  constexpr std::array laws{Law::kernel, Law::linear, Law::printed, Law::surface, Law::none};
+  constexpr std::array laws{Law::kernel, Law::linear, Law::as_published, Law::surface, Law::none};
   if (int const word = section.word_index("law"); word >= 0 && word < static_cast<int>(laws.size()))
     law = laws[static_cast<std::size_t>(word)];
 }
@@ -57,9 +57,9 @@ ContactSpec read_whole(Section const& section, int dimension) {
   std::string const all = "\"kernel\", \"linear\", \"printed\" or \"surface\"";
   for (char const* key : {"scale", "self"}) refuse_for(section, key, law == Law::none, all);
   for (char const* key : friction_keys) refuse_for(section, key, law == Law::none, all);
-  refuse_for(section, "stiffness", law != Law::printed, "\"printed\"");
+  refuse_for(section, "stiffness", law != Law::as_published, "\"printed\"");
   refuse_for(section, "closing_speed", law != Law::kernel, "\"kernel\"");
-  refuse_for(section, "exponent", law != Law::kernel && law != Law::printed, "\"kernel\" or \"printed\"");
+  refuse_for(section, "exponent", law != Law::kernel && law != Law::as_published, "\"kernel\" or \"printed\"");
   section.read("scale", contact.scale);
   read_stiffness(section, dimension, contact);
   if (law != Law::none) read_friction(section, contact.friction);

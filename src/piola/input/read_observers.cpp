@@ -3,7 +3,7 @@
 #include "piola/base/units.hpp"
 #include "piola/formulations/quantity_names.hpp"
 #include "piola/formulations/registry.hpp"
-#include "piola/input/formulations_of.hpp"
+#include "piola/input/contact_capabilities.hpp"
 #include "piola/input/history_names.hpp"
 #include "piola/input/probe_quantities.hpp"
 #include "piola/input/sections.hpp"
@@ -18,7 +18,7 @@ constexpr std::array contact_columns{std::pair{"contact_energy", "J"}, std::pair
                                      std::pair{"contact_dissipation", "J"}};
 
 using Kind = ProbeSpec::Kind;
-using Take = QuantitySpec::Take;
+using Statistic = QuantitySpec::Statistic;
 
 void read_point(Section const& section, int dimension, ProbeSpec& probe) {
   if (!section.has("at"))
@@ -173,13 +173,15 @@ std::optional<std::string> read_column(Section const& section, CaseSpec const& s
   return std::nullopt;
 }
 
-bool takes_time(Take take) { return takes_instant(take) || take == Take::oscillation_period; }
+bool takes_time(Statistic take) { return needs_time(take) || take == Statistic::oscillation_period; }
 
-bool compares(Take take) { return take == Take::mean_absolute_difference || take == Take::relative_error; }
+bool compares(Statistic take) {
+  return take == Statistic::mean_absolute_difference || take == Statistic::relative_error;
+}
 
 /// SI unit of the number that is taken from a column.
-std::string unit_of_take(Take take, std::string const& column_unit) {
-  if (take == Take::relative_error) return "1";
+std::string unit_of_take(Statistic take, std::string const& column_unit) {
+  if (take == Statistic::relative_error) return "1";
   return takes_time(take) ? "s" : column_unit;
 }
 
@@ -194,8 +196,8 @@ bool wants(Section const& section, std::string_view key, bool wanted, std::strin
 
 // The rows that count, or the two times of a change.
 void read_rows(Section const& section, QuantitySpec& quantity) {
-  bool const one_row =
-      quantity.take == Take::at_time || quantity.take == Take::initial_value || quantity.take == Take::final_value;
+  bool const one_row = quantity.take == Statistic::at_time || quantity.take == Statistic::initial_value ||
+                       quantity.take == Statistic::final_value;
   if (one_row) {
     for (std::string_view const key : {"from", "until"}) section.refuse(key, "is not used by this \"take\"");
     return;
@@ -210,13 +212,13 @@ void read_rows(Section const& section, QuantitySpec& quantity) {
 
 void read_take(Section const& section, std::string const& column_unit, std::map<std::string, double> const& constants,
                QuantitySpec& quantity) {
-  bool const threshold = quantity.take == Take::first_time_above || quantity.take == Take::first_time_below;
+  bool const threshold = quantity.take == Statistic::first_time_above || quantity.take == Statistic::first_time_below;
   if (wants(section, "threshold", threshold, "the value to pass")) {
     Value const value = *section.find("threshold");
     if (auto const number = read_number(value, column_unit, any_value, section.problems()))
       quantity.threshold = *number;
   }
-  if (wants(section, "time", quantity.take == Take::at_time, "the time to look at"))
+  if (wants(section, "time", quantity.take == Statistic::at_time, "the time to look at"))
     section.read("time", quantity.time);
   if (wants(section, "reference", compares(quantity.take), "the formula to compare with")) {
     quantity.reference = section.formula("reference", Names{constants, {}, {}});
@@ -249,16 +251,16 @@ ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodie
   if (probe.kind == Kind::point || probe.kind == Kind::stress_intensity) {
     if (body != nullptr) read_point(section, dimension, probe);
     section.refuse("where", "is not used by the kinds \"point\" and \"stress_intensity\"");
-  } else if (!measures_debris(probe.kind)) {
+  } else if (!is_cluster_probe(probe.kind)) {
     section.refuse("at",
                    "is used only by the kinds \"point\", \"stress_intensity\", \"fragment\", \"rim\" and \"hole\"");
     probe.where = section.formula("where", body != nullptr ? body->names : Names{});
   }
-  read_debris(section, body, probe);
+  read_cluster_probe(section, body, probe);
   read_comparison(section, body != nullptr ? body->names : Names{}, probe);
   read_ahead(section, body != nullptr ? dimension : 2, probe);
   if (along && body != nullptr) check_axis(section, dimension, probe);
-  if (!along && !measures_debris(probe.kind))
+  if (!along && !is_cluster_probe(probe.kind))
     section.refuse("axis", "is used only by the kinds \"twist\", \"extent\", \"fragment\", \"rim\" and \"hole\"");
   read_quantities(section, probe);
   section.refuse_unknown();
@@ -273,7 +275,8 @@ QuantitySpec read_quantity_section(Section const& section, CaseSpec const& spec,
   section.read("name", quantity.name);
   auto const unit = read_column(section, spec, quantity.column);
   if (int const take = section.word_index("take"); take >= 0)
-    quantity.take = take > static_cast<int>(Take::mean) ? Take::final_value : static_cast<Take>(take);  // "final"
+    quantity.take =
+        take > static_cast<int>(Statistic::mean) ? Statistic::final_value : static_cast<Statistic>(take);  // "final"
   read_take(section, unit.value_or("1"), constants, quantity);
   if (unit) read_unit(section, unit_of_take(quantity.take, *unit), quantity);
   section.refuse_unknown();

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
+#include "piola/geometry/extruded_revolved.hpp"
 #include "piola/geometry/level_set.hpp"
-#include "piola/geometry/placed.hpp"
 #include "piola/geometry/primitives.hpp"
-#include "piola/geometry/swept.hpp"
+#include "piola/geometry/transformed_solid.hpp"
 #include "piola/input/read_polygon.hpp"
 #include "piola/input/read_solid.hpp"
 #include "piola/input/region_checks.hpp"
-#include "piola/math/places.hpp"
+#include "piola/math/array_conversion.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>

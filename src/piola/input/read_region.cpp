@@ -5,7 +5,7 @@
 #include "piola/input/read_solid.hpp"
 #include "piola/input/region_names.hpp"
 #include "piola/input/sections.hpp"
-#include "piola/math/places.hpp"
+#include "piola/math/array_conversion.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -117,7 +117,7 @@ void read_run(Section const& section, RunSpec& run) {
   section.read("cfl", run.cfl);
   section.read("max_step", run.max_step);
   section.read("min_step", run.min_step);
-  section.read("machine", run.machine);
+  section.read("machine", run.backend);
   section.read("damping", run.damping);
   section.read("relax", run.relax);
   if (!run.relax) section.refuse("rest", "is used only with relax = true");

@@ -2,12 +2,12 @@
 #include "piola/input/read_solid.hpp"
 #include "piola/base/read_file.hpp"
 #include "piola/base/text.hpp"
-#include "piola/geometry/combined.hpp"
-#include "piola/geometry/measure.hpp"
+#include "piola/geometry/boolean_solid.hpp"
 #include "piola/geometry/mesh.hpp"
-#include "piola/geometry/placed.hpp"
+#include "piola/geometry/patch_measures.hpp"
+#include "piola/geometry/transformed_solid.hpp"
 #include "piola/input/case_files.hpp"
-#include "piola/setup/solid_bodies.hpp"
+#include "piola/setup/packed_bodies.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +17,7 @@
 namespace piola {
 namespace {
 
-using geometry::Combination;
+using geometry::BooleanOperation;
 using geometry::SolidPtr;
 
 constexpr std::array<std::string_view, 14> solid_kinds{"box",     "sphere",     "cylinder",     "torus",   "cone",
@@ -122,9 +122,9 @@ class SolidReader {
         node.problems().add(value->node.place, value->name + " has parts in 2D and in 3D (allowed: one dimension)");
         return nullptr;
       }
-    return geometry::combined(kind == "union"        ? Combination::join
-                              : kind == "difference" ? Combination::cut
-                                                     : Combination::common,
+    return geometry::combined(kind == "union"        ? BooleanOperation::join
+                              : kind == "difference" ? BooleanOperation::cut
+                                                     : BooleanOperation::common,
                               std::move(parts));
   }
 
@@ -133,7 +133,7 @@ class SolidReader {
     auto const section = node.has("transform") ? inner(node, "transform") : std::nullopt;
     if (!section) return solid;
     std::size_t const before = node.problems().count();
-    geometry::Placing placing;
+    geometry::RigidTransform placing;
     section->read("scale", placing.scale);
     if (section->has("rotate")) read_turns(*section, solid->dimension(), placing);
     if (section->has("move")) {
@@ -149,7 +149,7 @@ class SolidReader {
     return node.problems().count() == before ? geometry::placed(std::move(solid), placing) : nullptr;
   }
 
-  static void read_turns(Section const& section, int dimension, geometry::Placing& placing) {
+  static void read_turns(Section const& section, int dimension, geometry::RigidTransform& placing) {
     auto const value = section.find("rotate");
     std::vector<Node const*> turns;
     if (value->node.is_table()) turns.push_back(&value->node);

@@ -66,10 +66,10 @@ LoadSpec read_load(Section const& section, std::vector<BodyNames> const& bodies)
 MirrorSpec read_mirror(Section const& section, std::vector<BodyNames> const& bodies);
 CrackSpec read_crack(Section const& section, std::vector<BodyNames> const& bodies);
 /// Whether a probe measures the debris of a whole body: kinds fragment, rim and hole.
-bool measures_debris(ProbeSpec::Kind kind);
-/// Reads the keys of kinds with measures_debris(), including keys that other kinds have, too. Refuses the former for
+bool is_cluster_probe(ProbeSpec::Kind kind);
+/// Reads the keys of kinds with is_cluster_probe(), including keys that other kinds have, too. Refuses the former for
 /// other kinds. Without a body, reads only keys that do not depend on it.
-void read_debris(Section const& section, BodyNames const* body, ProbeSpec& probe);
+void read_cluster_probe(Section const& section, BodyNames const* body, ProbeSpec& probe);
 /// `dimension` is that of the bodies; `constants` may be used in the velocity.
 RigidSpec read_rigid(Section const& section, int dimension, std::map<std::string, double> const& constants);
 /// The part of read_rigid that reads how the shape moves.

@@ -3,7 +3,7 @@
 #include "piola/math/lanes.hpp"
 #include <string_view>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Cubic B-spline of support 2h (Monaghan and Lattanzio 1985). W(r, h) = sigma(D) / h^D w(r / h).
 struct CubicSpline {

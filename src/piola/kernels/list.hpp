@@ -9,7 +9,7 @@
 #include <array>
 #include <string_view>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 template <class... K>
 struct KernelList {

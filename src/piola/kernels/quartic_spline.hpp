@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/base/machine.hpp"
+#include "piola/base/backend.hpp"
 #include <string_view>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Quartic B-spline M5 of support 2.5h (Schoenberg 1946; Price 2012, eq. 7). W(r, h) = sigma(D) / h^D w(r / h),
 ///   w = (5/2 - q)^4 - 5 (3/2 - q)^4 + 10 (1/2 - q)^4, each power only where its base is positive.

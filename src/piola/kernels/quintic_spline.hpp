@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/base/machine.hpp"
+#include "piola/base/backend.hpp"
 #include <string_view>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Quintic B-spline M6 of support 3h (Schoenberg 1946; Price 2012, eq. 8). W(r, h) = sigma(D) / h^D w(r / h),
 ///   w = (3 - q)^5 - 6 (2 - q)^5 + 15 (1 - q)^5, each power only where its base is positive.

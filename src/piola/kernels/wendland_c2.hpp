@@ -3,7 +3,7 @@
 #include "piola/math/lanes.hpp"
 #include <string_view>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Wendland's function C2, scaled to support 2h (Wendland 1995; Dehnen and Aly 2012, table 1): no pairing of particles.
 /// W(r, h) = sigma(D) / h^D w(r / h); with s = q / 2, for s < 1,

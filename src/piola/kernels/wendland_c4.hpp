@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/base/machine.hpp"
+#include "piola/base/backend.hpp"
 #include <string_view>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Wendland's function C4, scaled to support 2h (Wendland 1995; Dehnen and Aly 2012, table 1): no pairing of particles.
 /// W(r, h) = sigma(D) / h^D w(r / h); with s = q / 2, for s < 1,

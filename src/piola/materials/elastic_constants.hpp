@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/base/machine.hpp"
+#include "piola/base/backend.hpp"
 #include "piola/base/parameter.hpp"
 #include "piola/math/tensor.hpp"
 #include <array>
 #include <cmath>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// The volume ratio of a law: det F, or 1 + tr e for small strain.
 template <class T>

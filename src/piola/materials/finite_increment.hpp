@@ -4,7 +4,7 @@
 
 /// Solids in rate form with known deformation gradients: their stress, and its increment between two of them. T is
 /// double or lanes.
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// J sigma F^-T [Pa], sigma = S - p I.
 template <class T>

@@ -8,7 +8,7 @@
 #include "piola/materials/registry.hpp"
 #include <concepts>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Interface of a law for total-Lagrangian formulations, at one point, in three dimensions. T is double or lanes.
 template <class Law> concept Hyperelastic = requires(Law const& law, Mat<3> const& F, double J) {

@@ -14,14 +14,14 @@ namespace piola {
 class Digest {
  public:
   /// `bytes`: how many will come in all.
-  explicit Digest(std::uint64_t bytes) : sum_(mixed(bytes)) {}
+  explicit Digest(std::uint64_t bytes) : sum_(hash_mix(bytes)) {}
   /// All pieces but the last must hold a multiple of 8 bytes.
   void add(std::span<std::byte const> piece) {
     while (!piece.empty()) {
       std::uint64_t word = 0;
       std::size_t const some = std::min(piece.size(), sizeof(word));
       std::memcpy(&word, piece.data(), some);
-      sum_ = mixed(sum_ ^ word) + 0x9E3779B97F4A7C15U;
+      sum_ = hash_mix(sum_ ^ word) + 0x9E3779B97F4A7C15U;
       piece = piece.subspan(some);
     }
   }

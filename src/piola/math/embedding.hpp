@@ -4,7 +4,7 @@
 
 /// Kinematic embeddings: laws are three-dimensional, one- and two-dimensional bodies are assumptions about the missing
 /// directions. Uniaxial strain (1D) and plane strain (2D): missing directions do not stretch.
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// `rest` with the D x D corner of F.
 template <int D, class T>

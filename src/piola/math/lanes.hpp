@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/base/machine.hpp"
+#include "piola/base/backend.hpp"
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
-#if defined(PIOLA_MACHINE_IS_V3) || defined(PIOLA_MACHINE_IS_V4) || defined(PIOLA_MACHINE_IS_NATIVE)
+#if defined(PIOLA_BACKEND_IS_V3) || defined(PIOLA_BACKEND_IS_V4) || defined(PIOLA_BACKEND_IS_NATIVE)
 #define PIOLA_HAS_PACKS 1
 #include <experimental/simd>
 #if defined(__AVX__)
@@ -23,7 +23,7 @@ using Index = std::int32_t;
 
 /// Functions that physics uses on a value that is either a `double` or a pack of lanes (Lanes); laws and passes call
 /// them unqualified.
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 PIOLA_FN double select(bool condition, double yes, double no) { return condition ? yes : no; }
 /// NaN if either argument is NaN, as minimum() of IEEE 754-2019. A NaN thus survives a reduction and reaches the report

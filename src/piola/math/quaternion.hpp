@@ -3,7 +3,7 @@
 #include "piola/math/tensor.hpp"
 #include <cmath>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// A rotation as a unit quaternion w + x i + y j + z k; the identity by default.
 struct Quaternion {

@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/math/lanes.hpp"
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// a^(-1/3) for a > 0, to a few units in the last place. Between 1/4 and 4, where det F of a solid lives, only
 /// arithmetic: Pade start (6 % off at the ends), then Newton steps y <- y (4 - a y^3) / 3, each squaring the error.

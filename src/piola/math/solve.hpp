@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/math/scalar.hpp"
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Solves A x = b for a small dense system by Gaussian elimination with partial pivoting; A (row by row) and b are
 /// overwritten, b becomes x. Returns the ratio of the smallest to the largest pivot, 0 for a singular system (b is then

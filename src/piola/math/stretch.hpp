@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/math/tensor.hpp"
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// The eigenvalues of C = F^T F as q + p t, where t^3 - 3 t = 2 r; the smallest root is t = -1 - d.
 template <class T>

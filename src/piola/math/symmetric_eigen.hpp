@@ -3,7 +3,7 @@
 #include "piola/math/tensor.hpp"
 #include <cmath>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Eigenvalues and eigenvectors of a symmetric tensor, or of one per lane.
 template <int D, class V = double>

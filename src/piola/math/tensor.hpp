@@ -3,7 +3,7 @@
 #include "piola/math/scalar.hpp"
 #include <type_traits>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Vector of D components; T is `double` or a pack of lanes.
 template <int D, class T = double>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/view.hpp"
-#include "piola/mechanics/held.hpp"
+#include "piola/exec/field_view.hpp"
+#include "piola/mechanics/prescribed_data.hpp"
 
 /// Passes over the particles that supports drive and that loads act on. Theory: docs/theory/boundaries.md.
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// The component of a vector field along a held direction.
 template <int D>
-PIOLA_FN double along(View const& field, HeldDirection const& h) {
+PIOLA_FN double along(View const& field, PrescribedDirection const& h) {
   if (h.axis >= 0) return field.scalar<double>(h.slot, h.axis);
   double sum = 0;
   for (int c = 0; c < D; ++c) sum += field.scalar<double>(h.slot, c) * h.direction[c];
@@ -17,14 +17,15 @@ PIOLA_FN double along(View const& field, HeldDirection const& h) {
 
 /// Adds `change` along the direction to a vector field.
 template <int D>
-PIOLA_FN void move_along(View const& from, WriteView const& to, HeldDirection const& h, double change) {
+PIOLA_FN void move_along(View const& from, WriteView const& to, PrescribedDirection const& h, double change) {
   for (int c = 0; c < D; ++c)
     if (h.direction[c] != 0) to.scalar(h.slot, from.scalar<double>(h.slot, c) + change * h.direction[c], c);
 }
 
 /// Sets the component along the direction; `now`: its present value.
 template <int D>
-PIOLA_FN void set_along(View const& from, WriteView const& to, HeldDirection const& h, double now, double wanted) {
+PIOLA_FN void set_along(View const& from, WriteView const& to, PrescribedDirection const& h, double now,
+                        double wanted) {
   if (h.axis >= 0)
     to.scalar(h.slot, wanted, h.axis);
   else
@@ -37,12 +38,12 @@ PIOLA_FN void set_along(View const& from, WriteView const& to, HeldDirection con
 template <int D>
 struct DriveDirections {
   double dt;
-  HeldDirection* held;
+  PrescribedDirection* held;
   View v, rate;
   WriteView rate_out;
 
   PIOLA_FN void operator()(Index k) const {
-    HeldDirection& h = held[k];
+    PrescribedDirection& h = held[k];
     double const now = along<D>(v, h), free = along<D>(rate, h);
     h.mean_speed = h.multiplied ? now + 0.5 * (h.speed - h.start_speed) : 0.5 * (now + h.speed);
     double const wanted = 2 * (h.mean_speed - now) / dt;
@@ -57,12 +58,12 @@ struct DriveDirections {
 template <int D>
 struct ArriveAlongDirections {
   double dt;
-  HeldDirection* held;
+  PrescribedDirection* held;
   View v, rate;
   WriteView v_out;
 
   PIOLA_FN void operator()(Index k) const {
-    HeldDirection& h = held[k];
+    PrescribedDirection& h = held[k];
     double const now = along<D>(v, h), half = now - 0.5 * dt * along<D>(rate, h);
     double const speed = h.multiplied ? half + 0.5 * (h.speed - h.start_speed) : h.speed;
     h.at_end = speed - now;

@@ -12,11 +12,11 @@ namespace piola {
 /// row. `mass`: of particle a, or its substitute.
 template <class Rows, class Weights, class Mass>
 EnvelopeCholesky constraint_matrix(Rows const& rows, Weights const& weights, std::size_t particles, Mass const& mass) {
-  struct InRow {
+  struct RowEntry {
     std::size_t row;
     double weight;
   };
-  std::vector<std::vector<InRow>> of_particle(particles);
+  std::vector<std::vector<RowEntry>> of_particle(particles);
   for (std::size_t r = 0; r < rows.size(); ++r)
     for (auto k = rows[r].first; k < rows[r].last; ++k)
       of_particle[weights[k].particle].push_back({r, weights[k].weight});

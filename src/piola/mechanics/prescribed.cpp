@@ -48,8 +48,8 @@ std::vector<Direction> directions_of(Support const& s, int D) {
   return {frame.begin() + static_cast<std::ptrdiff_t>(along_normal), frame.end()};
 }
 
-std::vector<HeldAlong> hold_along(std::vector<Direction> const& rows) {
-  std::vector<HeldAlong> held;
+std::vector<PrescribedAxis> hold_along(std::vector<Direction> const& rows) {
+  std::vector<PrescribedAxis> held;
   std::vector<Direction> chosen;
   for (std::size_t row = 0; row < rows.size(); ++row) {
     Direction d = rows[row];
@@ -58,11 +58,11 @@ std::vector<HeldAlong> hold_along(std::vector<Direction> const& rows) {
     double const length = dot(rows[row], d);
     std::vector<double> of_row(row + 1, 0);
     of_row[row] = 1;
-    for (HeldAlong const& h : held) {
+    for (PrescribedAxis const& h : held) {
       double const part = dot(rows[row], h.direction);
       for (std::size_t k = 0; k < h.count; ++k) of_row[h.of[k]] -= part * h.weight[k];
     }
-    HeldAlong next{d, row, {}, {}, 0};
+    PrescribedAxis next{d, row, {}, {}, 0};
     for (std::size_t r = 0; r < of_row.size(); ++r) {
       if (of_row[r] == 0) continue;
       next.of[next.count] = r;
@@ -93,7 +93,7 @@ Direction acceleration_by(std::array<Expression, 3> const& value, std::optional<
   return a;
 }
 
-double up_to_release(double dt, double rest) {
+double clip_step_to_end_time(double dt, double rest) {
   constexpr double last_steps = 20;
   double const steps = std::ceil(rest / dt * (1 - 1e-6));
   if (steps <= 1) return std::max(rest, 1e-3 * dt);

@@ -16,13 +16,13 @@ bool has_ended(double until, double time);
 
 /// The next time after `time` at which one of these supports and loads ends; infinity if there is none.
 template <class... Lists>
-double next_release(double time, Lists const&... lists) {
+double next_end_time(double time, Lists const&... lists) {
   double next = std::numeric_limits<double>::infinity();
   auto const see = [&](auto const& list) {
     for (auto const& item : list)
       if (!has_ended(item.until, time) && item.until < next) next = item.until;
   };
-  (see(lists), ...);
+  (observe(lists), ...);
   return next;
 }
 
@@ -38,7 +38,7 @@ bool make_orthogonal(Direction& d, std::vector<Direction> const& to);
 std::vector<Direction> directions_of(Support const& support, int D);
 
 /// One of the orthonormal directions in which a particle is held, computed from the requested directions.
-struct HeldAlong {
+struct PrescribedAxis {
   Direction direction;
   std::size_t row;               ///< first row that requests it
   std::array<double, 3> weight;  ///< its speed is the sum of weight[k] times the speed of row of[k]
@@ -55,7 +55,7 @@ struct HeldAlong {
 };
 
 /// Orthonormalises the rows in order. If two rows request different speeds in one direction, the first applies.
-std::vector<HeldAlong> hold_along(std::vector<Direction> const& rows);
+std::vector<PrescribedAxis> hold_along(std::vector<Direction> const& rows);
 
 /// Prescribed speed along d of the particle with reference position X [m/s].
 double speed_along(std::array<Expression, 3> const& velocity, Direction const& d, std::array<double, 3> const& X,
@@ -67,6 +67,6 @@ Direction acceleration_by(std::array<Expression, 3> const& value, std::optional<
 
 /// Returns dt, or less, so that a step ends after `rest` [s], at the end of a support or a load; otherwise the impulse
 /// of loads would depend on the step. The last steps before are equal, so that none is tiny.
-double up_to_release(double dt, double rest);
+double clip_step_to_end_time(double dt, double rest);
 
 }  // namespace piola

@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/math/solve.hpp"
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// A rigid-body rate  spin cross (x - centre) + push.
 struct RigidRate {

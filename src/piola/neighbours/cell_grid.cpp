@@ -96,7 +96,7 @@ std::size_t CellGrid::place_of(Cell const& cell) const {
   if (cell_at_.empty())
     return static_cast<std::size_t>((cell[2] * (last_[1] + 1) + cell[1]) * (last_[0] + 1) + cell[0]);
   std::uint64_t hash = 0;
-  for (std::int64_t const c : cell) hash = mixed(hash * 0x9E3779B97F4A7C15U + static_cast<std::uint64_t>(c) + 1);
+  for (std::int64_t const c : cell) hash = hash_mix(hash * 0x9E3779B97F4A7C15U + static_cast<std::uint64_t>(c) + 1);
   return static_cast<std::size_t>(hash) & (places_ - 1);
 }
 

@@ -23,7 +23,7 @@ ReferencePairs::CorrectedKernel ReferencePairs::correct_kernel() const {
   r.at_zero = kernel_volume_ * kernel_of(0);
   r.gamma.resize(static_cast<std::size_t>(particles_));
   r.C.resize(static_cast<std::size_t>(particles_));
-  exec_host::for_each_in_set_up(own_.last - own_.first, [&](Index k) {
+  exec_host::parallel_for(own_.last - own_.first, [&](Index k) {
     Index const a = own_.first + k;
     double sum = r.at_zero, M[9]{}, kernel_moment[3]{};
     visit(a, [&](Pair const& p) {

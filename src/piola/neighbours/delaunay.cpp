@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/contracts.hpp"
-#include "piola/base/problems.hpp"
-#include "piola/neighbours/cells.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/neighbours/delaunay_checks.hpp"
 #include "piola/neighbours/delaunay_hull.hpp"
 #include "piola/neighbours/delaunay_peel.hpp"
+#include "piola/neighbours/mesh_cells.hpp"
 #include "piola/neighbours/simplex.hpp"
 #include <algorithm>
 #include <limits>

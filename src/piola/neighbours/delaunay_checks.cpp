@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/neighbours/delaunay_checks.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
 #include "piola/math/tensor.hpp"
 #include <algorithm>

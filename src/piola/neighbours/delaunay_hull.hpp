@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/neighbours/cells.hpp"
+#include "piola/neighbours/mesh_cells.hpp"
 #include <string>
 
 /// The only file that uses Qhull.

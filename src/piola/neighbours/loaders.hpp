@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/view.hpp"
-#include "piola/neighbours/records.hpp"
-#include "piola/neighbours/tables.hpp"
+#include "piola/exec/field_view.hpp"
+#include "piola/neighbours/pair_table_views.hpp"
+#include "piola/neighbours/record_gather.hpp"
 
 /// Loaders define how values of neighbours are loaded. The summed terms are defined once, by a Body:
 ///
@@ -15,7 +15,7 @@
 ///   pair(sums, own, geometry, f)  inner pair;  outer(sums, own, geometry, f)  outer pair
 ///
 /// Both loaders give the sums of lane_count consecutive particles, one per lane.
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Geometry of a pair, or of one pair per lane.
 template <int D, class V>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/neighbours/records.hpp"
+#include "piola/neighbours/record_gather.hpp"
 
 /// Gathering records whose last few components do not fill whole lanes.
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 #if PIOLA_HAS_PACKS && defined(__AVX512F__)
 namespace detail {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/neighbours/reference_pairs.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/math/solve.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
@@ -299,7 +299,7 @@ bool solve_laplacian(Moments const& m, double h, std::array<double, 3>& alpha, d
 }  // namespace
 
 /// The condition for which a particle has too few neighbours.
-struct ReferencePairs::Refusal {
+struct ReferencePairs::TooFewNeighbours {
   int found = 0;
   char const* operation = nullptr;
 };
@@ -323,8 +323,8 @@ void ReferencePairs::correct(ParticleSet const& set, Body const& body, SlotOrder
   std::vector<double> moment(places, 0);
   auto const first_refused = [&](std::size_t n, auto const& slot_of) {
     std::vector<char> good(n, 1);
-    exec_host::for_each_in_set_up(static_cast<Index>(n), [&](Index k) {
-      Refusal refusal;
+    exec_host::parallel_for(static_cast<Index>(n), [&](Index k) {
+      TooFewNeighbours refusal;
       auto const at = static_cast<std::size_t>(k);
       if (slot_of(at) != absent) good[at] = correct(slot_of(at), at, moment[at], refusal) ? 1 : 0;
     });
@@ -337,7 +337,7 @@ void ReferencePairs::correct(ParticleSet const& set, Body const& body, SlotOrder
   if (refused != absent) {
     auto const at = static_cast<std::size_t>(refused);
     Index const a = regular_ ? stands_for[at] : own_.first + refused;
-    Refusal refusal;
+    TooFewNeighbours refusal;
     correct(a, at, moment[at], refusal);
     auto const id = order.id[static_cast<std::size_t>(a)];
     auto const& X = set.X[static_cast<std::size_t>(id)];
@@ -350,7 +350,7 @@ void ReferencePairs::correct(ParticleSet const& set, Body const& body, SlotOrder
   for (Index a = own_.first; a < own_.last; ++a) pairs_ += c.neighbours_of(a);
 }
 
-bool ReferencePairs::correct(Index a, std::size_t at, double& moment, Refusal& refusal) {
+bool ReferencePairs::correct(Index a, std::size_t at, double& moment, TooFewNeighbours& refusal) {
   double const h = options_.h_laplacian > 0 ? options_.h_laplacian : options_.h_gradient;
   Moments m;
   auto const each = [&](auto const& f) { regular_ ? visit_kind(a, at, f) : visit(a, f); };
@@ -419,7 +419,7 @@ ReferencePairs::Filter ReferencePairs::make_filter(std::vector<double> const& vo
   std::vector<double> neighbours(n);
   double const self = kernel_of(0);
   for (int sweep = 0;; ++sweep) {
-    exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) {
+    exec_host::parallel_for(own.last - own.first, [&](Index k) {
       double sum = 0;
       visit(own.first + k, [&](Pair const& p) {
         auto const b = static_cast<std::size_t>(source_of(p.b));
@@ -435,7 +435,7 @@ ReferencePairs::Filter ReferencePairs::make_filter(std::vector<double> const& vo
       neighbours[k] += self * volume[a] * d[a];
       worst = std::max(worst, std::abs(d[a] * neighbours[k] - 1));
     }
-    if (share != nullptr) share->take_largest(worst);
+    if (share != nullptr) share->allreduce_max(worst);
     if (worst < close || sweep == most) break;
     for (std::size_t k = 0; k < n; ++k) d[first + k] = std::sqrt(d[first + k] / neighbours[k]);
     if (share != nullptr) share->tell(d);

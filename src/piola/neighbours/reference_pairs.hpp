@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/set_up_loop.hpp"
+#include "piola/exec/host_loops.hpp"
 #include "piola/kernels/registry.hpp"
-#include "piola/neighbours/tables.hpp"
+#include "piola/neighbours/pair_table_views.hpp"
 #include "piola/particles/ordering.hpp"
 #include <algorithm>
 #include <array>
@@ -75,7 +75,7 @@ class ReferencePairs {
   struct FilterShare {
     Range own;
     std::function<void(std::vector<double>&)> tell;  ///< updates the ghost values
-    std::function<void(double&)> take_largest;       ///< allreduce of the maximum
+    std::function<void(double&)> allreduce_max;      ///< allreduce of the maximum
   };
   Filter make_filter(std::vector<double> const& volume, FilterShare const* share = nullptr) const;
   /// Corrected gradient of the corrected kernel (Lee et al. eq. 23), for tables with a kernel and one support:
@@ -124,10 +124,10 @@ class ReferencePairs {
   double s_of(double r2) const;
   double l_of(double r2) const;
   double kernel_of(double r2) const;
-  struct Refusal;
+  struct TooFewNeighbours;
   void correct(ParticleSet const& set, Body const& body, SlotOrder const& order);
   /// Finds the corrections stored at `at`, for the particle in slot a. Returns false if its neighbours are too few.
-  bool correct(Index a, std::size_t at, double& moment, Refusal& refusal);
+  bool correct(Index a, std::size_t at, double& moment, TooFewNeighbours& refusal);
   void make_stencils();
   void make_list();
 
@@ -165,7 +165,7 @@ class ReferencePairs {
 
 template <class F>
 void ReferencePairs::each_part(F const& f) const {
-  exec_host::for_each_part_in_set_up(parts(), own_.last - own_.first, [&](Index part) {
+  exec_host::parallel_for_chunks(parts(), own_.last - own_.first, [&](Index part) {
     Index const first = own_.first + part * part_size;
     f(part, first, std::min(first + part_size, own_.last));
   });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/math/tensor.hpp"
-#include "piola/neighbours/cells.hpp"
+#include "piola/neighbours/mesh_cells.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>

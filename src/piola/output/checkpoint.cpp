@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/checkpoint.hpp"
-#include "piola/base/problems.hpp"
-#include "piola/output/files.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/domain/communicator.hpp"
+#include "piola/output/atomic_file.hpp"
+#include "piola/output/collective_table_writer.hpp"
 #include "piola/output/hdf5.hpp"
-#include "piola/output/row_writer.hpp"
-#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ class GroupWriter : public StateWriter {
     file_.dataset<double>(path, values);
     file_.attribute(path, "name", name);
   }
-  void put_rows(std::string_view name, RowsOfRanks const& rows, std::span<double const> values) override {
+  void put_rows(std::string_view name, DistributedRows const& rows, std::span<double const> values) override {
     std::string const path = path_of(name);
     rows_.put(path, rows, values, hdf5::Storage::sequence);
     if (rows_.good()) file_.attribute(path, "name", name);
@@ -42,7 +42,7 @@ class GroupWriter : public StateWriter {
   }
   hdf5::Writer& file_;
   std::string group_;
-  RowWriter rows_{&file_};
+  CollectiveTableWriter rows_{&file_};
 };
 
 void put_all(NamedState const& state, StateWriter& writer) {
@@ -86,11 +86,11 @@ class GroupReader : public StateReader {
     demand_size(name, kept.size(), values.size());
     std::copy(kept.begin(), kept.end(), values.begin());
   }
-  std::optional<PlaceInFile> place(std::string_view name, std::size_t count) override {
+  std::optional<FileExtent> place(std::string_view name, std::size_t count) override {
     auto const at = file_->place_of_doubles(path(name));
     if (!at) return std::nullopt;
     demand_size(name, file_->shape_of_numbers(path(name)).front(), count);
-    return PlaceInFile{file_->path().string(), *at};
+    return FileExtent{file_->path().string(), *at};
   }
 
  private:
@@ -168,7 +168,7 @@ void write_checkpoint(std::filesystem::path const& path, Checkpoint const& c,
   hdf5::Writer file(path);
   file.attribute("/", "piola_checkpoint", std::array{layout_version});
   file.attribute("/", "version", c.version);
-  file.attribute("/", "machine", c.machine);
+  file.attribute("/", "machine", c.backend);
   file.attribute("/", "time", c.time);
   file.attribute("/", "step", std::array{c.step});
   file.attribute("/", "dt", c.dt);
@@ -181,7 +181,8 @@ void write_checkpoint(std::filesystem::path const& path, Checkpoint const& c,
     save(state);
   else
     put_all(c.state, state);
-  if (!ranks::several()) state.end_rows();  // on several ranks, the formulation calls end_rows() after all have written
+  if (!comm::is_parallel())
+    state.end_rows();  // on several ranks, the formulation calls end_rows() after all have written
   GroupWriter observers(file, "/observers");
   put_all(c.observers, observers);
   file.finish();
@@ -197,7 +198,7 @@ Checkpoint read_words(hdf5::Reader const& file, std::filesystem::path const& pat
   }
   Checkpoint c;
   c.version = file.text("/", "version");
-  c.machine = file.text("/", "machine");
+  c.backend = file.text("/", "machine");
   c.time = file.number("/", "time");
   c.step = file.integer("/", "step");
   c.dt = file.number("/", "dt");

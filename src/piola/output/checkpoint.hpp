@@ -35,7 +35,7 @@ struct Checkpoint {
   double wall_seconds = 0, stepping_seconds = 0;  ///< spent so far; in a file of their own (durations_name)
   bool cut_to_end = false;                        ///< the last step has its length from the end of the run
   std::string version;                   ///< of the program that wrote it; with its build if the run has an identity
-  std::string machine;                   ///< instruction sets used and available when it was written
+  std::string backend;                   ///< instruction sets used and available when it was written
   std::string source;                    ///< the case as run
   std::string particles;                 ///< particle_record of them in reference configuration
   NamedState state;                      ///< of the formulation

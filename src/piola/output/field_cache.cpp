@@ -8,7 +8,7 @@ namespace piola {
 
 FieldCache::FieldCache(Formulation const& formulation, ParticleSet const& particles, Of of)
     : formulation_(formulation), particles_(particles), fields_(formulation.fields()), of_(of) {
-  if (of == Of::owned) owned_ = formulation.owned();
+  if (of == Of::local) owned_ = formulation.local_particles();
   auto const add = [&](FieldInfo info) {
     if (!knows(info.name)) fields_.push_back(std::move(info));
   };
@@ -38,8 +38,8 @@ std::vector<double> FieldCache::make(std::string_view field, std::size_t compone
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = particles_.X[id_of(i / 3)][i % 3] + displacement[i];
   } else if (DerivedField const* const derived = find_derived(field)) {
     derive(*derived, values(derived->from), out);
-  } else if (of_ == Of::owned) {
-    formulation_.sample_owned(field, out);
+  } else if (of_ == Of::local) {
+    formulation_.sample_local(field, out);
   } else {
     formulation_.sample(field, out);
   }

@@ -27,7 +27,7 @@ class FieldCache {
   std::vector<FieldInfo> const& fields() const { return fields_; }
   ParticleSet const& particles() const { return particles_; }
   /// For Of::owned, the ids of the local particles; nothing if this rank owns all.
-  std::optional<std::vector<std::int64_t>> const& owned() const { return owned_; }
+  std::optional<std::vector<std::int64_t>> const& local_particles() const { return owned_; }
 
  private:
   std::vector<double> make(std::string_view field, std::size_t components);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/folder_lock.hpp"
-#include "piola/base/problems.hpp"
-#include "piola/output/files.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/output/atomic_file.hpp"
 #include <array>
 #include <cerrno>
 #include <ctime>
@@ -52,14 +52,14 @@ FolderLock::FolderLock(std::filesystem::path const& folder) : file_(folder / loc
   if (!written) {
     int const error = errno;
     ::close(descriptor_);
-    throw FileError(cannot_write(file_, error));
+    throw FileError(write_error_text(file_, error));
   }
 }
 
 /// Returns false if the file was removed between opening and locking it.
 bool FolderLock::take() {
   descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) throw FileError(cannot_write(file_, errno));
+  if (descriptor_ < 0) throw FileError(write_error_text(file_, errno));
   if (!is_lock_file(descriptor_)) {
     ::close(std::exchange(descriptor_, -1));
     throw InputError(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/frame_index.hpp"
-#include "piola/base/problems.hpp"
-#include "piola/output/files.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/output/atomic_file.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/frames.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
+#include "piola/domain/communicator.hpp"
 #include "piola/formulations/derived_fields.hpp"
 #include "piola/formulations/field_signs.hpp"
-#include "piola/output/files.hpp"
+#include "piola/output/atomic_file.hpp"
 #include "piola/output/hdf5.hpp"
-#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -29,7 +29,7 @@ bool is_integer(std::string_view field) { return field == "Body" || field == "Id
 
 /// Rows of [0, count) that this rank computes, for tables whose rows follow from their index alone.
 std::vector<Index> own_rows(Index count) {
-  std::int64_t const n = ranks::count(), rank = ranks::own();
+  std::int64_t const n = comm::size(), rank = comm::rank();
   auto const first = static_cast<Index>(count * rank / n), last = static_cast<Index>(count * (rank + 1) / n);
   std::vector<Index> rows(static_cast<std::size_t>(last - first));
   std::iota(rows.begin(), rows.end(), first);
@@ -56,19 +56,19 @@ FrameContent::FrameContent(std::vector<std::string> const& fields, bool compress
     bool const wanted = fields.empty() ? !is_derived(info.name) : asked;  // derived fields only on request
     if (info.name != "Position" && (always || wanted)) chosen_.push_back(info);
   }
-  if (cache.owned()) places_.assign(cache.owned()->begin(), cache.owned()->end());
+  if (cache.local_particles()) places_.assign(cache.local_particles()->begin(), cache.local_particles()->end());
 }
 
 /// Every particle is one cell of type VTK_VERTEX.
-void FrameContent::put_cells(RowWriter& rows) const {
+void FrameContent::put_cells(CollectiveTableWriter& rows) const {
   auto const n = static_cast<Index>(cache_.particles().size());
   auto const whole = [](std::vector<Index> const& of) { return std::vector<std::int64_t>(of.begin(), of.end()); };
   std::vector<Index> const cells = own_rows(n), offsets = own_rows(n + 1);
   constexpr std::uint8_t vtk_vertex = 1;
   std::vector<std::uint8_t> const types(cells.size(), vtk_vertex);
   auto const table = [](Set set, Index count, std::vector<Index> const& own) {
-    RowsOfRanks of{set, count};
-    if (ranks::several()) of.places = own;
+    DistributedRows of{set, count};
+    if (comm::is_parallel()) of.places = own;
     return of;
   };
   rows.put<std::int64_t>("/VTKHDF/Connectivity", table(of_cells, n, cells), whole(cells), storage_);
@@ -76,15 +76,15 @@ void FrameContent::put_cells(RowWriter& rows) const {
   rows.put<std::uint8_t>("/VTKHDF/Types", table(of_cells, n, cells), types, storage_);
 }
 
-RowsOfRanks FrameContent::rows_of(int columns) const {
-  RowsOfRanks rows{of_particles, static_cast<Index>(cache_.particles().size()), std::nullopt, columns};
-  if (cache_.owned()) rows.places = places_;
+DistributedRows FrameContent::rows_of(int columns) const {
+  DistributedRows rows{of_particles, static_cast<Index>(cache_.particles().size()), std::nullopt, columns};
+  if (cache_.local_particles()) rows.places = places_;
   return rows;
 }
 
-void FrameContent::put_field(RowWriter& rows, FieldInfo const& info) {
+void FrameContent::put_field(CollectiveTableWriter& rows, FieldInfo const& info) {
   std::span<double const> const values = cache_.values(info.name);
-  RowsOfRanks const table = rows_of(info.components);
+  DistributedRows const table = rows_of(info.components);
   if (is_integer(info.name)) {  // a float would lose ids above 16 million
     std::vector<std::int64_t> const whole(values.begin(), values.end());
     rows.put<std::int64_t>(path_of(info.name), table, whole, storage_);
@@ -93,13 +93,13 @@ void FrameContent::put_field(RowWriter& rows, FieldInfo const& info) {
   }
 }
 
-void FrameContent::put(RowWriter& rows) {
+void FrameContent::put(CollectiveTableWriter& rows) {
   rows.put<float>("/VTKHDF/Points", rows_of(3), to_float(cache_.values("Position")), storage_);
   put_cells(rows);
   for (FieldInfo const& info : chosen_) put_field(rows, info);
   auto const& volume = cache_.particles().volume;
   std::vector<float> own;
-  if (cache_.owned())
+  if (cache_.local_particles())
     for (Index const id : places_) own.push_back(static_cast<float>(volume[static_cast<std::size_t>(id)]));
   else
     own = to_float(volume);
@@ -130,7 +130,7 @@ void FrameWriter::write(double time, FieldCache& cache, WithAll const& with_all)
   file.dataset<double>("/VTKHDF/FieldData/TimeValue", std::array{time});
   FrameContent content(fields_, compress_, cache);
   with_all([&] {
-    RowWriter rows(&file);
+    CollectiveTableWriter rows(&file);
     content.put(rows);
   });
   content.describe(file);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/output/collective_table_writer.hpp"
 #include "piola/output/field_cache.hpp"
 #include "piola/output/frame_index.hpp"
-#include "piola/output/row_writer.hpp"
 #include <array>
 #include <filesystem>
 #include <functional>
@@ -18,14 +18,14 @@ class FrameContent {
   /// Both must outlive this object.
   FrameContent(std::vector<std::string> const& fields, bool compress, FieldCache& cache);
   /// Collective. Throws FileError on rank 0.
-  void put(RowWriter& rows);
+  void put(CollectiveTableWriter& rows);
   /// Writes attributes that describe the tables. On rank 0, after put().
   void describe(hdf5::Writer& file) const;
 
  private:
-  RowsOfRanks rows_of(int columns) const;  ///< of particles
-  void put_cells(RowWriter& rows) const;
-  void put_field(RowWriter& rows, FieldInfo const& info);
+  DistributedRows rows_of(int columns) const;  ///< of particles
+  void put_cells(CollectiveTableWriter& rows) const;
+  void put_field(CollectiveTableWriter& rows, FieldInfo const& info);
   FieldCache& cache_;
   std::vector<FieldInfo> chosen_;
   std::vector<Index> places_;  ///< of the particles that this rank owns

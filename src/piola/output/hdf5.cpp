@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/hdf5.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/output/checksum_trailer.hpp"
 #include "piola/output/hdf5_driver.hpp"
 #include "piola/output/hdf5_types.hpp"
-#include "piola/output/seal.hpp"
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
@@ -33,7 +33,7 @@ struct Writer::Parts {
   explicit Parts(std::filesystem::path path) : disk(std::move(path)), file(create_on(disk)) {}
   /// Identifier of the open file. Throws FileError if an earlier write has failed.
   hid_t id() const {
-    disk.on_disk.demand_written();
+    disk.on_disk.throw_if_failed();
     return file->id();
   }
   /// Bytes of HDF5's own.
@@ -45,7 +45,7 @@ struct Writer::Parts {
       sum.add(some);
     }
   }
-  GrowingFile disk;
+  AppendOnlyFile disk;
   std::optional<Handle> file;
   std::map<std::uint64_t, WrittenPart> written;  ///< of what was reserved
 };
@@ -186,8 +186,8 @@ void Writer::attribute(std::string const& object, std::string const& name, doubl
 void Writer::finish() {
   check(H5Fflush(parts_->id(), H5F_SCOPE_GLOBAL), "the file");
   parts_->file.reset();
-  GrowingFile& disk = parts_->disk;
-  disk.on_disk.demand_written();
+  AppendOnlyFile& disk = parts_->disk;
+  disk.on_disk.throw_if_failed();
   CheckSum sum;
   std::uint64_t at = 0;
   for (auto const& [start, part] : parts_->written) {
@@ -196,7 +196,7 @@ void Writer::finish() {
     at = start + part.bytes;
   }
   parts_->add_from_disk(sum, at, disk.bytes);
-  disk.on_disk.finish(disk.bytes, seal_of(sum, disk.bytes));
+  disk.on_disk.finish(disk.bytes, checksum_trailer_of(sum, disk.bytes));
 }
 
 }  // namespace piola::hdf5

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/output/storage.hpp"
+#include "piola/output/dataset_storage.hpp"
 #include <cstdint>
 #include <filesystem>
 #include <hdf5.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/hdf5_driver.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/output/hdf5_types.hpp"
 #include <algorithm>
 #include <iterator>
@@ -17,7 +17,7 @@ constexpr haddr_t most_bytes = (haddr_t{1} << 62) - 1;
 
 /// An open file in the format that HDF5 requires of drivers.
 struct Open : H5FD_t {
-  GrowingFile* file;
+  AppendOnlyFile* file;
   haddr_t end;  ///< of what is allocated
 };
 
@@ -25,7 +25,7 @@ Open& open_of(H5FD_t* file) { return static_cast<Open&>(*file); }
 Open const& open_of(H5FD_t const* file) { return static_cast<Open const&>(*file); }
 
 H5FD_t* open(char const*, unsigned, hid_t access, haddr_t) {
-  auto const* file = static_cast<GrowingFile* const*>(H5Pget_driver_info(access));
+  auto const* file = static_cast<AppendOnlyFile* const*>(H5Pget_driver_info(access));
   return file == nullptr ? nullptr : new Open{{}, *file, 0};
 }
 
@@ -54,7 +54,7 @@ herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, std::size_t size, void*
 }
 
 herr_t write(H5FD_t* file, H5FD_mem_t type, hid_t, haddr_t at, std::size_t size, void const* from) {
-  GrowingFile& to = *open_of(file).file;
+  AppendOnlyFile& to = *open_of(file).file;
   if (to.reserving && type == H5FD_MEM_DRAW) {
     to.reserved = at;
     return 0;
@@ -72,7 +72,7 @@ H5FD_class_t driver() {
   d.name = "piola";
   d.maxaddr = most_bytes;
   d.fc_degree = H5F_CLOSE_STRONG;  // what is left open must not keep the file
-  d.fapl_size = sizeof(GrowingFile*);
+  d.fapl_size = sizeof(AppendOnlyFile*);
   d.open = open;
   d.close = close;
   d.query = query;
@@ -88,12 +88,12 @@ H5FD_class_t driver() {
 
 }  // namespace
 
-Handle create_on(GrowingFile& file) {
-  silence();
+Handle create_on(AppendOnlyFile& file) {
+  disable_error_stack();
   static H5FD_class_t const ours = driver();
   static hid_t const registered = H5FDregister(&ours);
   Handle const access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "a property list");
-  GrowingFile* const info = &file;
+  AppendOnlyFile* const info = &file;
   if (registered < 0 || H5Pset_driver(access.id(), registered, static_cast<void const*>(&info)) < 0)
     throw FileError("HDF5 cannot use the driver of the program - this is a defect of the program, please report it");
   // Ranks write whole pages of large data sets, which no two of them have in common.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/read_file.hpp"
+#include "piola/output/checksum_trailer.hpp"
 #include "piola/output/hdf5.hpp"
 #include "piola/output/hdf5_types.hpp"
-#include "piola/output/seal.hpp"
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ constexpr std::uintmax_t most_packing = 1032;
 constexpr std::size_t longest_text = 65536;  // HDF5 itself allows no longer attribute in these files
 
 Handle open_file(std::filesystem::path const& path) {
-  silence();
+  disable_error_stack();
   if (FileToRead const file(path); !file.problem().empty())  // HDF5 would block on a pipe without a writer
     throw FileError(path.string() + ": " + file.problem());
   hid_t const id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -26,7 +26,7 @@ Handle open_file(std::filesystem::path const& path) {
 }
 
 Handle open_sealed(std::filesystem::path const& path) {
-  verify_seal(path);
+  verify_checksum_trailer(path);
   return open_file(path);
 }
 

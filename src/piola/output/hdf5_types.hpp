@@ -35,6 +35,6 @@ inline hid_t native_type<char>() {
 }
 
 /// HDF5 would print its own stack of errors; ours are exceptions.
-inline void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+inline void disable_error_stack() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 }  // namespace piola::hdf5

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/history.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/formulations/quantity_names.hpp"
 #include <algorithm>
 #include <array>
@@ -106,7 +106,7 @@ std::vector<HistoryColumn> diagnostic_columns(Diagnostics const& diagnostics) {
       columns.push_back({fmt::format("{}.{}", part, q.word), std::string(q.unit)});
   };
   if (diagnostics.bodies.size() > 1)
-    for (BodyShare const& body : diagnostics.bodies) add(body.name, body_quantities());
+    for (BodyDiagnostics const& body : diagnostics.bodies) add(body.name, body_quantities());
   for (Action const& action : diagnostics.actions) add(action.name, action_quantities());
   for (RigidState const& rigid : diagnostics.rigids) add(rigid.name, rigid_quantities());
   return columns;
@@ -149,7 +149,7 @@ std::vector<double> diagnostic_values(double time, std::int64_t step, double dt,
   for (auto const& extra : d.more) row.push_back(extra.second);
   auto const add = [&](auto const& values) { row.insert(row.end(), values.begin(), values.end()); };
   if (d.bodies.size() > 1)
-    for (BodyShare const& body : d.bodies) {
+    for (BodyDiagnostics const& body : d.bodies) {
       add(std::array{body.kinetic_energy, body.strain_energy});
       add(body.linear_momentum);
     }
@@ -205,20 +205,20 @@ void HistoryFile::take_rows(std::string_view text, double time) {
 
 void HistoryFile::sync() {
   if (!file_) return;
-  if (::fsync(::fileno(file_.get())) != 0) throw FileError(cannot_write(path_, errno));
+  if (::fsync(::fileno(file_.get())) != 0) throw FileError(write_error_text(path_, errno));
 }
 
 void HistoryFile::open(Opening how) {
   if (path_.empty()) return;
   file_ = open_result_file(path_, how);
-  if (!file_) throw FileError(cannot_write(path_, errno));
+  if (!file_) throw FileError(write_error_text(path_, errno));
 }
 
 void HistoryFile::put(std::string const& line) {
   if (!file_) return;
   if (!still_there(::fileno(file_.get()), path_)) throw FileError(was_removed(path_));
   bool const written = std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size();
-  if (!written || std::fflush(file_.get()) != 0) throw FileError(cannot_write(path_, errno));
+  if (!written || std::fflush(file_.get()) != 0) throw FileError(write_error_text(path_, errno));
   bytes_ += line.size();
   sum_.add(line);
 }

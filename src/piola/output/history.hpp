@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/formulation.hpp"
-#include "piola/output/files.hpp"
-#include "piola/output/seal.hpp"
+#include "piola/output/atomic_file.hpp"
+#include "piola/output/checksum_trailer.hpp"
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -55,7 +55,7 @@ class HistoryFile {
   HistoryTable const& table() const { return table_; }
   HistoryMark mark() const { return {table_.rows.size(), bytes_, sum_.value()}; }
   /// Describes what was missing or changed when the file was continued, in one sentence; empty if nothing was.
-  std::string const& complaint() const { return complaint_; }
+  std::string const& repair_note() const { return complaint_; }
   /// Waits until every row is on the disk. Throws FileError.
   void sync();
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/summary.hpp"
-#include "piola/output/files.hpp"
+#include "piola/output/atomic_file.hpp"
 #include <nlohmann/json.hpp>
 
 namespace piola {
@@ -22,12 +22,13 @@ void add_ranks(Summary const& s, nlohmann::ordered_json& document) {
                                  {"bytes", rank.bytes},
                                  {"collectives", rank.collectives},
                                  {"message_seconds", rank.message_seconds},
-                                 {"bytes_to_all", rank.bytes_to_all},
+                                 {"bytes_to_all", rank.replicated_bytes},
                                  {"collective_seconds", rank.collective_seconds},
                                  {"idle_seconds", rank.idle_seconds}});
-  if (s.recuts)
-    document["repartition"] = {
-        {"count", s.recuts->imbalance.size()}, {"imbalance", s.recuts->imbalance}, {"last", s.recuts->last}};
+  if (s.repartition_statistics)
+    document["repartition"] = {{"count", s.repartition_statistics->imbalance.size()},
+                               {"imbalance", s.repartition_statistics->imbalance},
+                               {"last", s.repartition_statistics->last}};
 }
 
 nlohmann::ordered_json identity_json(Identity const& identity) {
@@ -37,7 +38,7 @@ nlohmann::ordered_json identity_json(Identity const& identity) {
           {"case", identity.case_text},
           {"files", files},
           {"program", identity.program},
-          {"machine", identity.machine}};
+          {"machine", identity.backend}};
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/base/identity.hpp"
-#include "piola/parallel/work_balance.hpp"
+#include "piola/domain/load_balancer.hpp"
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -36,7 +36,7 @@ struct GuardNumbers {
 struct RankTraffic {
   double messages = 0, bytes = 0, collectives = 0;
   double message_seconds = 0, collective_seconds = 0, idle_seconds = 0;
-  double bytes_to_all = 0;
+  double replicated_bytes = 0;
 };
 
 /// Content of summary.json.
@@ -49,8 +49,9 @@ struct Summary {
   double wall_seconds = 0;       ///< over all parts of a resumed run
   double stages_per_second = 0;  ///< particle-stages per second of the steps alone
   int threads = 1;
-  std::vector<RankTraffic> ranks;               ///< empty on one rank
-  std::optional<Recuts> recuts;                 ///< on several ranks, if the formulation supports repartitioning
+  std::vector<RankTraffic> ranks;  ///< empty on one rank
+  std::optional<RepartitionStatistics>
+      repartition_statistics;                   ///< on several ranks, if the formulation supports repartitioning
   double energy_initial = 0, energy_final = 0;  ///< J
   /// Largest rise of (total energy - external work) above any earlier value, by the largest total energy.
   double energy_max_increase = 0;

@@ -61,20 +61,20 @@ constexpr std::size_t tile_size = exec::block_size, leaf_size = exec::leaf_size;
 /// stay.
 std::vector<std::size_t> dealt_places(std::size_t count, Shuffle const& shuffle, std::vector<int> const& kind,
                                       std::size_t tile) {
-  struct Dealt {
+  struct SlotPermutation {
     int kind;
     std::uint64_t owner, place;
     std::size_t tile;
   };
-  std::vector<Dealt> tiles;
+  std::vector<SlotPermutation> tiles;
   std::vector<std::size_t> places;  // kind after kind
   for (std::size_t k = 0; k < kind.size(); ++k) {
     if (kind[k] < 0) continue;
-    std::uint64_t const random = mixed(shuffle.seed * 0x9E3779B97F4A7C15U + k);
-    tiles.push_back({kind[k], random % static_cast<std::uint64_t>(shuffle.owners), mixed(random), k});
+    std::uint64_t const random = hash_mix(shuffle.seed * 0x9E3779B97F4A7C15U + k);
+    tiles.push_back({kind[k], random % static_cast<std::uint64_t>(shuffle.owners), hash_mix(random), k});
     places.push_back(k);
   }
-  std::sort(tiles.begin(), tiles.end(), [](Dealt const& a, Dealt const& b) {
+  std::sort(tiles.begin(), tiles.end(), [](SlotPermutation const& a, SlotPermutation const& b) {
     return std::tie(a.kind, a.owner, a.place, a.tile) < std::tie(b.kind, b.owner, b.place, b.tile);
   });
   std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) { return kind[a] < kind[b]; });
@@ -101,9 +101,9 @@ std::vector<int> one_kind(std::size_t count, std::size_t tile) { return std::vec
 
 Shuffle set_shuffle(Shuffle const& shuffle) { return std::exchange(shuffle_of_tests, shuffle); }
 
-Shuffle const& shuffle_now() { return shuffle_of_tests; }
+Shuffle const& current_shuffle() { return shuffle_of_tests; }
 
-std::vector<std::size_t> dealt_numbers(std::size_t count, Shuffle const& shuffle) {
+std::vector<std::size_t> shuffled_indices(std::size_t count, Shuffle const& shuffle) {
   return dealt_places(count, shuffle, shuffle.owners > 0 ? one_kind(count, tile_size) : std::vector<int>{}, tile_size);
 }
 
@@ -121,14 +121,14 @@ SlotOrder pencil_order(ParticleSet const& set, Body const& body) {
   return order_by_rows(set, body, axis, rank);
 }
 
-SlotOrder dealt_order(ParticleSet const& set, Body const& body) {
+SlotOrder shuffled_order(ParticleSet const& set, Body const& body) {
   SlotOrder order = pencil_order(set, body);
   if (shuffle_of_tests.owners == 0) return order;
   auto const kinds = one_kind(static_cast<std::size_t>(order.particles), leaf_size);
   return dealt_out(order, shuffle_of_tests, kinds, leaf_size);
 }
 
-SlotOrder dealt_within_parts(ParticleSet const& set, SlotOrder const& order) {
+SlotOrder shuffled_within_parts(ParticleSet const& set, SlotOrder const& order) {
   if (shuffle_of_tests.owners == 0) return order;
   std::vector<int> kind = one_kind(static_cast<std::size_t>(order.particles), tile_size);
   for (std::size_t k = 0; k < kind.size(); ++k) {
@@ -141,6 +141,6 @@ SlotOrder dealt_within_parts(ParticleSet const& set, SlotOrder const& order) {
   return dealt_out(order, shuffle_of_tests, kind, tile_size);
 }
 
-bool shuffle_takes_lists() { return shuffle_of_tests.owners > 0 || shuffle_of_tests.lists; }
+bool shuffle_forces_lists() { return shuffle_of_tests.owners > 0 || shuffle_of_tests.lists; }
 
 }  // namespace piola

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/parallel.hpp"
+#include "piola/exec/device_loops.hpp"
 #include "piola/particles/particle_set.hpp"
 #include <array>
 #include <vector>
@@ -40,20 +40,21 @@ struct Shuffle {
   bool lists = false;
 };
 /// The numbers 0 ... count - 1 with their tiles permuted.
-std::vector<std::size_t> dealt_numbers(std::size_t count, Shuffle const& shuffle);
+std::vector<std::size_t> shuffled_indices(std::size_t count, Shuffle const& shuffle);
 /// The present shuffle. Copy it to make orders later.
-Shuffle const& shuffle_now();
-/// Sets the shuffle of later dealt_order() calls and returns the previous one. Not thread-safe against dealt_order().
+Shuffle const& current_shuffle();
+/// Sets the shuffle of later shuffled_order() calls and returns the previous one. Not thread-safe against
+/// shuffled_order().
 Shuffle set_shuffle(Shuffle const& shuffle);
 
 /// pencil_order(), permuted by the shuffle in leaves of 16 slots (exec::leaf_size). For formulations whose results do
 /// not depend on the order.
-SlotOrder dealt_order(ParticleSet const& set, Body const& body);
+SlotOrder shuffled_order(ParticleSet const& set, Body const& body);
 
-/// As dealt_order(), for an order in which the particles of a part are contiguous. Tiles are permuted within a part;
+/// As shuffled_order(), for an order in which the particles of a part are contiguous. Tiles are permuted within a part;
 /// tiles with particles of several parts stay.
-SlotOrder dealt_within_parts(ParticleSet const& set, SlotOrder const& order);
+SlotOrder shuffled_within_parts(ParticleSet const& set, SlotOrder const& order);
 /// Whether bodies are permuted, or the reference for permuted ones: see Shuffle::lists.
-bool shuffle_takes_lists();
+bool shuffle_forces_lists();
 
 }  // namespace piola

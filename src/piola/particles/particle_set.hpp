@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/particles/shared_vector.hpp"
+#include "piola/particles/copy_on_write_vector.hpp"
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -26,8 +26,8 @@ struct Body {
   std::array<double, 3> spacing{};   ///< lattice spacing [m]; 1 for dimensions that do not exist
   std::array<int, 3> lattice{};      ///< lattice points per direction
   bool regular = true;               ///< positions are exactly on the lattice (no jitter)
-  bool scattered = false;  ///< not generated on a lattice: `lattice` and the lattice indices only serve to find spatial
-                           ///< neighbours
+  bool off_lattice = false;  ///< not generated on a lattice: `lattice` and the lattice indices only serve to find
+                             ///< spatial neighbours
   Outline outline = {};
 };
 
@@ -45,18 +45,18 @@ struct Crack {
 struct ParticleSet {
   int dimension = 3;
   std::vector<Body> bodies;
-  SharedVector<std::array<double, 3>> X;           ///< reference position [m]
-  SharedVector<std::array<int, 3>> lattice_index;  ///< position in the body's lattice
-  SharedVector<double> volume;         ///< tributary volume: mass and quadrature weight; sums to the body's volume
-  SharedVector<double> kernel_volume;  ///< full volume (spacing product) for kernel sums; see docs/decisions
-  SharedVector<int> body;              ///< index into bodies
+  CopyOnWriteVector<std::array<double, 3>> X;           ///< reference position [m]
+  CopyOnWriteVector<std::array<int, 3>> lattice_index;  ///< position in the body's lattice
+  CopyOnWriteVector<double> volume;         ///< tributary volume: mass and quadrature weight; sums to the body's volume
+  CopyOnWriteVector<double> kernel_volume;  ///< full volume (spacing product) for kernel sums; see docs/decisions
+  CopyOnWriteVector<int> body;              ///< index into bodies
   /// Number of the material within the particle's body: 0 for that of the body, k for its k-th part. Empty: no body has
   /// parts.
-  SharedVector<int> part;
+  CopyOnWriteVector<int> part;
   std::vector<Crack> cracks;
   /// Side of a crack for particles on its faces: +1 on the left of from -> to, -1 on the right; 0 elsewhere. Empty: no
   /// cracks.
-  SharedVector<std::int8_t> crack_side;
+  CopyOnWriteVector<std::int8_t> crack_side;
 
   std::int64_t size() const { return static_cast<std::int64_t>(X.size()); }
   /// Memory of the arrays, once for all copies.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/body_shapes.hpp"
-#include "piola/exec/set_up_loop.hpp"
+#include "piola/exec/host_loops.hpp"
 #include "piola/math/symmetric_eigen.hpp"
-#include "piola/simulation/results_folder.hpp"
-#include "piola/simulation/scene.hpp"
+#include "piola/pictures/case_scene.hpp"
+#include "piola/observers/results_folder.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace {
 
 /// Places and states of all particles in a frame.
 struct ParticlesNow {
-  std::vector<Place3> x;
+  std::vector<Point3> x;
   std::vector<std::uint8_t> loose;
   Configuration of(ReferenceMesh const& mesh) const {
     return {std::span(x).subspan(mesh.first, mesh.count), std::span(loose).subspan(mesh.first, mesh.count)};
@@ -27,7 +27,7 @@ ParticlesNow particles_in(FrameReader const& frame) {
     auto const values = frame.values(field);
     return std::vector<double>(values.begin(), values.end());
   };
-  ParticlesNow now{std::vector<Place3>(points.size() / 3), {}};
+  ParticlesNow now{std::vector<Point3>(points.size() / 3), {}};
   for (std::size_t i = 0; i < now.x.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) now.x[i][c] = static_cast<double>(points[3 * i + c]);
   now.loose = loose_particles(numbers("Damage"), numbers("KernelType"), now.x.size());
@@ -67,7 +67,7 @@ void BodyShapes::follow(RunFolder const& run) {
   for (auto const& [time, path] : run.frames) {
     FrameReader const frame(path);
     ParticlesNow const now = particles_in(frame);
-    before = torn_now(meshes_, now.x, now.loose, before);
+    before = current_torn_cells(meshes_, now.x, now.loose, before);
     torn_[frame.time()] = before;
   }
 }
@@ -111,7 +111,7 @@ std::array<std::vector<std::uint8_t>, 6> BodyShapes::stretches(FrameReader const
   for (ReferenceMesh const& mesh : meshes_) {
     if (mesh.cells.count() == 0) continue;
     Configuration const body = now.of(mesh);
-    exec_host::for_each_in_set_up(static_cast<Index>(mesh.count), [&](Index k) {
+    exec_host::parallel_for(static_cast<Index>(mesh.count), [&](Index k) {
       auto const i = static_cast<std::size_t>(k);
       if ((mesh.first + i) % every != 0) return;
       Mat<3> const F = with_bounded_stretches(fitted_gradient(mesh, body, i), least_ball_stretch, most_ball_stretch);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/drawing/skin.hpp"
 #include "piola/output/frame_reader.hpp"
-#include "piola/output/skin.hpp"
-#include "piola/report/frame_code.hpp"
+#include "piola/report/frame_codec.hpp"
 #include "piola/report/run_folder.hpp"
 #include <array>
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace piola::report {
 
 /// Surfaces of the bodies in one frame. Particles are numbered as in the run.
 struct BodySurfaces {
-  std::vector<Place3> place;  ///< of each particle: at the surface where it has a part in it [m]
+  std::vector<Point3> place;  ///< of each particle: at the surface where it has a part in it [m]
   std::vector<std::array<std::uint32_t, 3>> facets;
   std::vector<std::uint8_t> alone;  ///< per particle: belongs to no surface, not 0: seen as a ball
 };

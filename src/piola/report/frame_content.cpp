@@ -4,8 +4,8 @@
 namespace piola::report {
 namespace {
 
-FrameCodes surface_codes(FrameReader const& frame, Survey const& survey, Lattice const& lattice, Plan const& plan,
-                         Shaping const& shaping) {
+FrameCodes surface_codes(FrameReader const& frame, FrameStatistics const& survey, Lattice const& lattice,
+                         Plan const& plan, SurfaceData const& shaping) {
   BodySurfaces const now = shaping.shapes->surfaces(frame);
   FrameCodes codes;
   for (std::size_t c = 0; c < 3; ++c)
@@ -21,8 +21,8 @@ FrameCodes surface_codes(FrameReader const& frame, Survey const& survey, Lattice
 
 }  // namespace
 
-FrameCodes planned_codes(FrameReader const& frame, Survey const& survey, Lattice const& lattice, Plan const& plan,
-                         Shaping const& shaping) {
+FrameCodes planned_codes(FrameReader const& frame, FrameStatistics const& survey, Lattice const& lattice,
+                         Plan const& plan, SurfaceData const& shaping) {
   if (shaping.surfaces) return surface_codes(frame, survey, lattice, plan, shaping);
   FrameCodes codes = codes_of(frame, survey, lattice, plan.fields, plan.every);
   if (plan.stretched && shaping.shapes)
@@ -30,7 +30,7 @@ FrameCodes planned_codes(FrameReader const& frame, Survey const& survey, Lattice
   return codes;
 }
 
-std::vector<std::uint16_t> planned_bodies(Survey const& survey, Plan const& plan, Shaping const& shaping) {
+std::vector<std::uint16_t> planned_bodies(FrameStatistics const& survey, Plan const& plan, SurfaceData const& shaping) {
   std::vector<std::uint16_t> body;
   if (shaping.surfaces)
     for (std::uint32_t const i : shaping.surfaces->particles) body.push_back(survey.body[i]);

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/report/page_budget.hpp"
 #include "piola/report/page_surfaces.hpp"
-#include "piola/report/plan.hpp"
 #include <optional>
 
 namespace piola::report {
 
 /// Optional data to show particles as surfaces or stretched balls.
-struct Shaping {
+struct SurfaceData {
   std::optional<BodyShapes> shapes = {};
   std::optional<PageSurfaces> surfaces = {};  ///< then only with `shapes`
 };
 
 /// Codes of a frame as in a plan: positions (on the surface for particles at one), then fields, then the components of
 /// V if balls are stretched.
-FrameCodes planned_codes(FrameReader const& frame, Survey const& survey, Lattice const& lattice, Plan const& plan,
-                         Shaping const& shaping);
+FrameCodes planned_codes(FrameReader const& frame, FrameStatistics const& survey, Lattice const& lattice,
+                         Plan const& plan, SurfaceData const& shaping);
 
 /// The bodies of the particles that a page holds.
-std::vector<std::uint16_t> planned_bodies(Survey const& survey, Plan const& plan, Shaping const& shaping);
+std::vector<std::uint16_t> planned_bodies(FrameStatistics const& survey, Plan const& plan, SurfaceData const& shaping);
 
 }  // namespace piola::report

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/page.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include <cerrno>
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@ void require_page_name(std::filesystem::path const& path) {
 
 PageFile::PageFile(std::filesystem::path path, std::string const& title)
     : path_(std::move(path)), part_(path_.string() + ".part"), file_(open_result_file(part_, Opening::replace)) {
-  if (!file_) throw FileError(cannot_write(path_, errno));
+  if (!file_) throw FileError(write_error_text(path_, errno));
   put("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'; "
       "style-src 'unsafe-inline'; img-src data:\">\n"
@@ -48,7 +48,7 @@ PageFile::~PageFile() {
   std::filesystem::remove(part_, ignored);
 }
 
-void PageFile::fail() { throw FileError(cannot_write(path_, errno)); }
+void PageFile::fail() { throw FileError(write_error_text(path_, errno)); }
 
 void PageFile::put(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) fail();
@@ -70,7 +70,7 @@ void PageFile::finish() {
   if (std::fclose(file_.release()) != 0) fail();
   std::error_code error;
   std::filesystem::rename(part_, path_, error);
-  if (error) throw FileError(cannot_write(path_, error.value()));
+  if (error) throw FileError(write_error_text(path_, error.value()));
 }
 
 }  // namespace piola::report

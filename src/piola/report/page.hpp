@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/output/files.hpp"
-#include "piola/report/about.hpp"
+#include "piola/output/atomic_file.hpp"
+#include "piola/report/page_json.hpp"
 #include <filesystem>
 #include <string_view>
 

@@ -9,7 +9,7 @@ namespace {
 constexpr double most_width = 4;  // of the half spacing between outer particles and a surface, in radii of balls
 
 /// Strays stay outside: the box grows by little.
-void widen(Survey& survey, std::array<std::array<double, 3>, 2> const& least, Place3 const& x) {
+void widen(FrameStatistics& survey, std::array<std::array<double, 3>, 2> const& least, Point3 const& x) {
   for (std::size_t c = 0; c < 3; ++c) {
     if (!std::isfinite(x[c])) continue;
     survey.low[c] = std::max(least[0][c], std::min(survey.low[c], x[c]));
@@ -19,7 +19,7 @@ void widen(Survey& survey, std::array<std::array<double, 3>, 2> const& least, Pl
 
 }  // namespace
 
-PageSurfaces find_surfaces(RunFolder const& run, BodyShapes const& shapes, Survey& survey) {
+PageSurfaces find_surfaces(RunFolder const& run, BodyShapes const& shapes, FrameStatistics& survey) {
   double const largest = survey.radius.empty() ? 0 : *std::max_element(survey.radius.begin(), survey.radius.end());
   std::array<std::array<double, 3>, 2> ends{survey.low, survey.high};
   for (std::size_t c = 0; c < 3; ++c) {

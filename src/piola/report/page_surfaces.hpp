@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/report/body_shapes.hpp"
-#include "piola/report/survey.hpp"
+#include "piola/report/frame_statistics.hpp"
 #include <cstdint>
 #include <vector>
 
@@ -16,7 +16,7 @@ struct PageSurfaces {
 };
 
 /// Reads the frames of a survey. Enlarges the box of the survey where surfaces extend beyond their particles.
-PageSurfaces find_surfaces(RunFolder const& run, BodyShapes const& shapes, Survey& survey);
+PageSurfaces find_surfaces(RunFolder const& run, BodyShapes const& shapes, FrameStatistics& survey);
 
 /// Numbers below 2^32 for encode_numbers(): all lower halves, then all upper ones.
 std::vector<std::uint8_t> encode_large_numbers(std::vector<std::uint32_t> const& numbers);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/plot_references.hpp"
 #include "piola/base/units.hpp"
-#include "piola/simulation/history_plot.hpp"
+#include "piola/pictures/history_plot.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,13 +10,14 @@
 namespace piola::report {
 namespace {
 
-using Take = QuantitySpec::Take;
+using Statistic = QuantitySpec::Statistic;
 
 constexpr int black = 4, dotted = 2;
 
-bool is_value(Take take) {
-  return take == Take::maximum || take == Take::minimum || take == Take::final_value || take == Take::initial_value ||
-         take == Take::first_peak || take == Take::at_time || take == Take::mean;
+bool is_value(Statistic take) {
+  return take == Statistic::maximum || take == Statistic::minimum || take == Statistic::final_value ||
+         take == Statistic::initial_value || take == Statistic::first_peak || take == Statistic::at_time ||
+         take == Statistic::mean;
 }
 
 std::array<double, 2> ends_of_values(Plot const& plot, std::vector<double> Curve::*values) {
@@ -52,10 +53,10 @@ Curve reference_curve(QuantitySpec const& quantity, VerificationRow const& row, 
   if (quantity.reference) return formula_curve(quantity, ends);
   if (!row.tolerance.starts_with("within")) return {};  // a bound is no value that is expected
   bool const across = is_value(quantity.take);
-  if (!across && !takes_instant(quantity.take)) return {};
+  if (!across && !needs_time(quantity.take)) return {};
   auto const at = in_si(row, across ? unit_of_column(quantity.column) : "s");
   if (!at || !std::isfinite(*at)) return {};
-  if (quantity.take == Take::at_time) return {.label = {}, .x = {quantity.time}, .y = {*at}, .marks = true};
+  if (quantity.take == Statistic::at_time) return {.label = {}, .x = {quantity.time}, .y = {*at}, .marks = true};
   if (across)
     return {
         .label = {}, .x = {std::max(ends.x[0], quantity.from), std::min(ends.x[1], quantity.until)}, .y = {*at, *at}};

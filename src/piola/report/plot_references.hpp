@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/output/plot.hpp"
+#include "piola/drawing/plot.hpp"
 #include "piola/report/run_folder.hpp"
-#include "piola/simulation/verify.hpp"
+#include "piola/verification/verify.hpp"
 #include <array>
 #include <string>
 #include <vector>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/report.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
-#include "piola/report/about.hpp"
-#include "piola/report/check_rows.hpp"
+#include "piola/report/checks_of_run.hpp"
 #include "piola/report/frame_content.hpp"
 #include "piola/report/page.hpp"
-#include "piola/report/plan.hpp"
+#include "piola/report/page_budget.hpp"
+#include "piola/report/page_json.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <numeric>
@@ -23,14 +23,14 @@ constexpr std::uintmax_t most_picture_bytes = 3'000'000;
 
 /// The frames of a page: what is known of them, and what of them it holds.
 struct Shown {
-  Survey survey;
+  FrameStatistics survey;
   Plan plan;
-  Shaping shaping;
+  SurfaceData shaping;
 };
 
 /// Finds surfaces if they are asked for, else how balls are stretched, as far as that takes seconds only.
 void shape(RunFolder const& run, ReportOptions const& options, Shown& shown) {
-  Survey& survey = shown.survey;
+  FrameStatistics& survey = shown.survey;
   bool const soon = survey.particles <= most_stretched && survey.particles * survey.frames.size() <= most_stretches;
   if (!options.surface && !(soon && survey.dimension > 1)) return;
   shown.shaping.shapes = BodyShapes::of(run, survey.dimension, survey.body);
@@ -107,12 +107,12 @@ PageSize write_page(fs::path const& page, RunFolder const& run, Json const& abou
     file.data("bodies", packed_text(encode_numbers(planned_bodies(survey, plan, shaping))));
     if (shaping.surfaces) put_surfaces(file, *shaping.surfaces, plan);
     Lattice const lattice = Lattice::of(survey.low, survey.high, plan.bits);
-    FrameCoder coder;
+    FrameCodec coder;
     before = file.size();
     for (std::size_t k = 0; k < plan.frames.size(); ++k) {
       FrameReader const frame(run.frames[survey.frames[plan.frames[k]]].second);
       auto const codes = planned_codes(frame, survey, lattice, plan, shaping);
-      file.data(fmt::format("frame-{}", k), packed_text(coder.encode(codes, k % FrameCoder::key_every == 0)));
+      file.data(fmt::format("frame-{}", k), packed_text(coder.encode(codes, k % FrameCodec::key_every == 0)));
     }
     after = file.size();
   }
@@ -128,7 +128,7 @@ void write_within_budget(fs::path const& page, RunFolder const& run, ReportOptio
   Plan const all = shown.plan;
   constexpr double own_sources = 100'000;
   double const rest = static_cast<double>(script_text(about).size()) + own_sources, least = 0.02 * options.budget;
-  PlanLimits limits{.bytes = std::max(options.budget - rest, least),
+  PageBudget limits{.bytes = std::max(options.budget - rest, least),
                     .least_fields = options.fields.empty() ? least_fields : all.fields};
   for (int attempt = 0; attempt < 4; ++attempt) {
     shown.plan = fitting_plan(run, shown.survey, all, limits, shown.shaping);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/simulation/verify.hpp"
+#include "piola/verification/verify.hpp"
 #include <cstddef>
 #include <filesystem>
 #include <string>

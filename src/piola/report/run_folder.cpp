@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/run_folder.hpp"
-#include "piola/base/problems.hpp"
-#include "piola/output/files.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/output/atomic_file.hpp"
 #include "piola/output/folder_lock.hpp"
 #include "piola/output/frames.hpp"
-#include "piola/simulation/results_folder.hpp"
-#include "piola/simulation/scene.hpp"
+#include "piola/pictures/case_scene.hpp"
+#include "piola/observers/results_folder.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <regex>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/input/case_spec.hpp"
-#include "piola/simulation/rigid_history.hpp"
+#include "piola/pictures/rigid_history.hpp"
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/verification_page.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/version.hpp"
 #include "piola/report/page.hpp"
-#include "piola/simulation/verification_report.hpp"
+#include "piola/verification/verification_report.hpp"
 #include <algorithm>
 
 namespace piola::report {

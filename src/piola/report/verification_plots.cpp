@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/verification_plots.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/pictures/history_plot.hpp"
 #include "piola/report/plot_references.hpp"
-#include "piola/simulation/history_plot.hpp"
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -13,14 +13,14 @@ namespace {
 constexpr std::array curve_colours{0, 1, 2, 3, 5, 6};  // black is what is expected
 
 /// A variant with the rows that need it alone.
-struct JudgedRun {
+struct CheckedRun {
   std::string variant;
   RunFolder folder;
   std::vector<VerificationRow> rows;
 };
 
-std::vector<JudgedRun> judged_runs(CaseVerification const& c, std::filesystem::path const& results) {
-  std::vector<JudgedRun> runs;
+std::vector<CheckedRun> judged_runs(CaseVerification const& c, std::filesystem::path const& results) {
+  std::vector<CheckedRun> runs;
   for (VariantRun const& run : c.runs) {
     if (run.summary.empty()) continue;  // it could not be made; its folder may hold the results of an earlier run
     std::vector<VerificationRow> rows;
@@ -35,9 +35,9 @@ std::vector<JudgedRun> judged_runs(CaseVerification const& c, std::filesystem::p
 }
 
 /// The columns that quantities with rows are taken from, in their order.
-std::vector<std::string> judged_columns(std::vector<JudgedRun> const& runs) {
+std::vector<std::string> judged_columns(std::vector<CheckedRun> const& runs) {
   std::vector<std::string> columns;
-  for (JudgedRun const& run : runs) {
+  for (CheckedRun const& run : runs) {
     if (!run.folder.spec) continue;
     for (QuantitySpec const& quantity : run.folder.spec->quantities) {
       bool const looked_at = std::any_of(run.rows.begin(), run.rows.end(),
@@ -49,7 +49,7 @@ std::vector<std::string> judged_columns(std::vector<JudgedRun> const& runs) {
   return columns;
 }
 
-std::optional<Plot> plot_of_run(JudgedRun const& run, std::string const& column) try {
+std::optional<Plot> plot_of_run(CheckedRun const& run, std::string const& column) try {
   return history_plot(run.folder.path, {.columns = {column}});
 } catch (InputError const&) {  // it left no history, or has no such column
   return std::nullopt;
@@ -57,7 +57,7 @@ std::optional<Plot> plot_of_run(JudgedRun const& run, std::string const& column)
 
 /// Expectations of all runs are black; those of one of several runs have the colour of its curve. The plot holds the
 /// curves of the runs, in their order.
-void add_expected(Plot& plot, std::vector<JudgedRun const*> const& runs, std::string const& column) {
+void add_expected(Plot& plot, std::vector<CheckedRun const*> const& runs, std::string const& column) {
   PlotEnds const ends = ends_of(plot);
   std::vector<Curve> expected;
   for (std::size_t k = 0; k < runs.size(); ++k)
@@ -75,9 +75,9 @@ void add_expected(Plot& plot, std::vector<JudgedRun const*> const& runs, std::st
   plot.curves.insert(plot.curves.end(), expected.begin(), expected.end());
 }
 
-void add_plots(std::vector<Plot>& plots, CaseVerification const& c, std::vector<JudgedRun> const& runs,
+void add_plots(std::vector<Plot>& plots, CaseVerification const& c, std::vector<CheckedRun> const& runs,
                std::string const& column) {
-  std::vector<JudgedRun const*> drawn;
+  std::vector<CheckedRun const*> drawn;
   Plot plot;
   auto const finish = [&] {
     if (drawn.empty()) return;
@@ -87,7 +87,7 @@ void add_plots(std::vector<Plot>& plots, CaseVerification const& c, std::vector<
     plot = {};
     drawn.clear();
   };
-  for (JudgedRun const& run : runs) {
+  for (CheckedRun const& run : runs) {
     auto own = plot_of_run(run, column);
     if (!own || reference_curves(run.folder, run.rows, {column}, ends_of(*own)).empty()) continue;
     Curve curve = std::move(own->curves.front());

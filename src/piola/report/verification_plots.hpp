@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/output/plot.hpp"
-#include "piola/simulation/verify.hpp"
+#include "piola/drawing/plot.hpp"
+#include "piola/verification/verify.hpp"
 #include <filesystem>
 #include <vector>
 

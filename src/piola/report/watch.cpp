@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/watch.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
 #include "piola/output/history.hpp"
-#include "piola/simulation/history_plot.hpp"
+#include "piola/pictures/history_plot.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>

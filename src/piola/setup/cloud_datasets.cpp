@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/cloud_datasets.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
-#include "piola/output/data_columns.hpp"
+#include "piola/output/foreign_hdf5.hpp"
 #include "piola/setup/cloud_header.hpp"
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/cloud_file.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
-#include "piola/output/files.hpp"
+#include "piola/output/atomic_file.hpp"
+#include "piola/output/checksum_trailer.hpp"
 #include "piola/output/frames.hpp"
-#include "piola/output/seal.hpp"
 #include "piola/setup/cloud_checks.hpp"
 #include "piola/setup/cloud_datasets.hpp"
 #include "piola/setup/cloud_table.hpp"
@@ -63,7 +63,7 @@ CloudTable read_cloud_frame(std::string const& path, CloudOptions const& options
 
 /// Frames are sealed, files of other programs are not. Truncated frames are recognised by their name.
 CloudTable read_cloud_hdf5(std::string const& path, CloudOptions const& options, std::vector<std::string>& problems) {
-  bool const is_frame = ends_with_seal(path) || std::filesystem::path(path).extension() == ".vtkhdf";
+  bool const is_frame = has_checksum_trailer(path) || std::filesystem::path(path).extension() == ".vtkhdf";
   if (!is_frame) return read_cloud_datasets(path, options.group, options.length_unit, problems);
   if (!options.group.empty())
     problems.push_back(path +

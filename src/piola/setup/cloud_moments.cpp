@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/exec/set_up_loop.hpp"
+#include "piola/exec/host_loops.hpp"
 #include "piola/kernels/wendland_c2.hpp"
 #include "piola/math/symmetric_eigen.hpp"
 #include "piola/neighbours/cell_grid.hpp"
@@ -142,7 +142,7 @@ std::vector<NearestPoint> nearest_points(CloudPoints const& X) {
   for (std::size_t i = 0; i < X.size(); ++i) left[i] = i;
   for (double cell = first_radius(X, longest); !left.empty(); cell *= cell_growth) {
     CellGrid const grid(X, cell);
-    exec_host::for_each_in_set_up(static_cast<Index>(left.size()), [&](Index k) {
+    exec_host::parallel_for(static_cast<Index>(left.size()), [&](Index k) {
       std::size_t const i = left[static_cast<std::size_t>(k)];
       double least = std::numeric_limits<double>::infinity();
       grid.visit(X[i], [&](Index other) {
@@ -165,7 +165,7 @@ std::vector<NearestPoint> nearest_points(CloudPoints const& X) {
 std::vector<CloudMoment> cloud_moments(PointCloud const& cloud) {
   std::vector<CloudMoment> moments(cloud.X.size());
   CloudSurroundings const surroundings(cloud);
-  exec_host::for_each_in_set_up(static_cast<Index>(cloud.X.size()), [&](Index i) {
+  exec_host::parallel_for(static_cast<Index>(cloud.X.size()), [&](Index i) {
     moments[static_cast<std::size_t>(i)] = surroundings.at(static_cast<std::size_t>(i));
   });
   return moments;

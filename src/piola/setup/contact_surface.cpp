@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/contact_surface.hpp"
-#include "piola/math/places.hpp"
+#include "piola/math/array_conversion.hpp"
 #include "piola/setup/faces.hpp"
-#include "piola/setup/solid_bodies.hpp"
+#include "piola/setup/packed_bodies.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -60,7 +60,7 @@ double rise_above(geometry::Solid const& solid, Vec<3> const& y, Vec<3> const& n
 void add_patch_points(ShapeSpec const& shape, ParticleSet const& particles, Body const& body,
                       contact::Surface& surface) {
   constexpr double rounding = 1e-6;
-  for (PatchShare const& share : patch_shares(shape, particles, body)) {
+  for (PatchWeight const& share : patch_weights(shape, particles, body)) {
     Vec<3> const area{{share.vector[0], share.vector[1], share.vector[2]}};
     double const size = std::sqrt(dot(area, area));
     if (!(size > rounding * share.area)) continue;  // a fold within one particle's reach
@@ -82,7 +82,7 @@ contact::Surface contact_surface(ShapeSpec const& shape, ParticleSet const& part
     return surface;
   }
   for (Face const& face : faces_of(shape))
-    for (FaceShare const& share : face_shares(shape, particles, body, face)) {
+    for (FaceWeight const& share : face_weights(shape, particles, body, face)) {
       Vec<3> const normal{{share.normal[0], share.normal[1], share.normal[2]}};
       double const height = height_above(shape, face, particles.X[static_cast<std::size_t>(share.particle)]);
       surface.points.push_back({share.particle, height * normal, normal, share.area});

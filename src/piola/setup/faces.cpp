@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/faces.hpp"
-#include "piola/setup/solid_bodies.hpp"
+#include "piola/setup/packed_bodies.hpp"
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -28,15 +28,15 @@ double curved_area(ShapeSpec const& shape, double R) {
   return shape.dimension == 3 ? 4 * pi * R * R : shape.dimension == 2 ? 2 * pi * R : 2;
 }
 
-void scale_to(double area, std::vector<FaceShare>& shares) {
+void scale_to(double area, std::vector<FaceWeight>& shares) {
   double sum = 0;
-  for (FaceShare const& s : shares) sum += s.area;
-  for (FaceShare& s : shares) s.area *= area / sum;
+  for (FaceWeight const& s : shares) sum += s.area;
+  for (FaceWeight& s : shares) s.area *= area / sum;
 }
 
-std::vector<FaceShare> flat_shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body,
-                                   Face const& face) {
-  std::vector<FaceShare> shares;
+std::vector<FaceWeight> flat_shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body,
+                                    Face const& face) {
+  std::vector<FaceWeight> shares;
   Vec3 normal{};
   normal[static_cast<std::size_t>(face.axis)] = face.upper ? 1 : -1;
   for (auto const id : face_particles(particles, body, face))
@@ -47,14 +47,15 @@ std::vector<FaceShare> flat_shares(ShapeSpec const& shape, ParticleSet const& pa
 }
 
 /// The outermost or innermost circle of a body in rings: equal parts, each straight outwards.
-std::vector<FaceShare> ring_shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body, bool outer) {
+std::vector<FaceWeight> ring_shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body,
+                                    bool outer) {
   auto const distance = [&](std::int64_t id) {
     double const r = length(radial(shape, particles.X[static_cast<std::size_t>(id)]));
     return outer ? -r : r;
   };
   double least = distance(body.first);
   for (auto id = body.first; id < body.last; ++id) least = std::min(least, distance(id));
-  std::vector<FaceShare> shares;
+  std::vector<FaceWeight> shares;
   for (auto id = body.first; id < body.last; ++id)
     if (distance(id) < least + 0.01 * shape.spacing) shares.push_back({id, 1, {}});
   return shares;
@@ -62,11 +63,11 @@ std::vector<FaceShare> ring_shares(ShapeSpec const& shape, ParticleSet const& pa
 
 /// Particles of a lattice with a neighbour missing on that side. A particle's part is that of its open cell faces in
 /// the direction of the normal, sum A max(0, n.N): for a staircase along a plane these sum to the plane's area.
-std::vector<FaceShare> stair_shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body,
-                                    bool outer) {
+std::vector<FaceWeight> stair_shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body,
+                                     bool outer) {
   std::map<std::array<int, 3>, std::int64_t> at;
   for (auto id = body.first; id < body.last; ++id) at[particles.lattice_index[static_cast<std::size_t>(id)]] = id;
-  std::vector<FaceShare> shares;
+  std::vector<FaceWeight> shares;
   for (auto id = body.first; id < body.last; ++id) {
     auto const i = static_cast<std::size_t>(id);
     Vec3 const r = radial(shape, particles.X[i]);
@@ -83,10 +84,10 @@ std::vector<FaceShare> stair_shares(ShapeSpec const& shape, ParticleSet const& p
   return shares;
 }
 
-std::vector<FaceShare> shares_of_patch(ShapeSpec const& shape, ParticleSet const& particles, Body const& body,
-                                       int patch) {
-  std::vector<FaceShare> shares;
-  for (PatchShare const& share : patch_shares(shape, particles, body)) {
+std::vector<FaceWeight> shares_of_patch(ShapeSpec const& shape, ParticleSet const& particles, Body const& body,
+                                        int patch) {
+  std::vector<FaceWeight> shares;
+  for (PatchWeight const& share : patch_weights(shape, particles, body)) {
     if (share.patch != patch) continue;
     Vec3 normal = share.vector;
     // The normal of a flat patch is exactly along its axis.
@@ -132,14 +133,14 @@ double face_area(ShapeSpec const& shape, ParticleSet const& particles, std::int6
   return doubled ? area / 2 : area;
 }
 
-std::vector<FaceShare> face_shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body,
-                                   Face const& face) {
+std::vector<FaceWeight> face_weights(ShapeSpec const& shape, ParticleSet const& particles, Body const& body,
+                                     Face const& face) {
   if (face.part == Face::Part::patch) return shares_of_patch(shape, particles, body, face.axis);
   if (face.part == Face::Part::flat) return flat_shares(shape, particles, body, face);
   bool const outer = face.part == Face::Part::outer;
   auto shares =
-      body.scattered ? ring_shares(shape, particles, body, outer) : stair_shares(shape, particles, body, outer);
-  for (FaceShare& share : shares) {
+      body.off_lattice ? ring_shares(shape, particles, body, outer) : stair_shares(shape, particles, body, outer);
+  for (FaceWeight& share : shares) {
     Vec3 const r = radial(shape, particles.X[static_cast<std::size_t>(share.particle)]);
     for (std::size_t c = 0; c < 3; ++c) share.normal[c] = (outer ? 1 : -1) * r[c] / length(r);
   }

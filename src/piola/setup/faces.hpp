@@ -28,7 +28,7 @@ std::vector<std::int64_t> face_particles(ParticleSet const& particles, Body cons
 double face_area(ShapeSpec const& shape, ParticleSet const& particles, std::int64_t id, Face const& face);
 
 /// Area of a face that a particle represents.
-struct FaceShare {
+struct FaceWeight {
   std::int64_t particle = 0;       ///< id
   double area = 0;                 ///< [m^(Dim-1); 1 in 1D]
   std::array<double, 3> normal{};  ///< outward unit normal of the exact surface; patch: vector area over area
@@ -38,7 +38,7 @@ struct FaceShare {
 /// The particles of a face with their parts of it. The parts sum to the area of the exact face: 2 pi R L of a cylinder,
 /// 4 pi R^2 of a ball, 2 pi R of a disc, pi (R^2 - r^2) of an end, whatever the staircase of a lattice has. Opposite
 /// particles of a closed surface have equal parts, so that a constant pressure on it has no resultant.
-std::vector<FaceShare> face_shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body,
-                                   Face const& face);
+std::vector<FaceWeight> face_weights(ShapeSpec const& shape, ParticleSet const& particles, Body const& body,
+                                     Face const& face);
 
 }  // namespace piola

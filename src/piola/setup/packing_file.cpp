@@ -2,7 +2,7 @@
 #include "piola/setup/packing_file.hpp"
 #include "piola/base/read_file.hpp"
 #include "piola/math/digest.hpp"
-#include "piola/output/files.hpp"
+#include "piola/output/atomic_file.hpp"
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>

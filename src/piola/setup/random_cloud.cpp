@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/random_cloud.hpp"
-#include "piola/neighbours/cell_moments.hpp"
+#include "piola/neighbours/particle_cells.hpp"
 #include <random>
 
 namespace piola {

@@ -2,11 +2,11 @@
 #include "piola/setup/shapes.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/geometry/packing.hpp"
-#include "piola/setup/births.hpp"
 #include "piola/setup/cloud_file.hpp"
+#include "piola/setup/lattice_generator.hpp"
+#include "piola/setup/packed_bodies.hpp"
 #include "piola/setup/random_cloud.hpp"
 #include "piola/setup/rings.hpp"
-#include "piola/setup/solid_bodies.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,9 +17,9 @@ namespace {
 using Vec3 = std::array<double, 3>;
 
 bool are_points(ShapeSpec const& shape) { return shape.kind == ShapeSpec::Kind::points; }
-bool is_solid(ShapeSpec const& shape) { return shape.kind == ShapeSpec::Kind::solid; }
+bool is_hypoelastic(ShapeSpec const& shape) { return shape.kind == ShapeSpec::Kind::solid; }
 bool in_rings(ShapeSpec const& shape) {
-  return !is_solid(shape) && !are_points(shape) && shape.arrangement != ShapeSpec::Arrangement::lattice;
+  return !is_hypoelastic(shape) && !are_points(shape) && shape.arrangement != ShapeSpec::Arrangement::lattice;
 }
 
 /// The exact region of a shape, whatever its particles are.
@@ -55,18 +55,18 @@ double count_estimate(ShapeSpec const& shape) {
 std::int64_t count_particles(ShapeSpec const& shape) {
   constexpr double countable = 1e8;
   if (are_points(shape)) return shape.cloud ? static_cast<std::int64_t>(shape.cloud->X.size()) : 0;
-  if (is_solid(shape))
+  if (is_hypoelastic(shape))
     return static_cast<std::int64_t>(
         std::min(geometry::packed_count(shape.volume, shape.spacing, shape.dimension), 9e18));
   if (in_rings(shape)) return static_cast<std::int64_t>(std::min(count_ring_particles(shape), 9e18));
   double const estimate = count_estimate(shape);
   if (shape.kind == ShapeSpec::Kind::box || estimate > countable)
     return static_cast<std::int64_t>(std::min(estimate, 9e18));
-  return Births(shape).size();
+  return LatticeGenerator(shape).size();
 }
 
 std::array<double, 3> spacing_of(ShapeSpec const& shape) {
-  if (is_solid(shape) || are_points(shape)) {
+  if (is_hypoelastic(shape) || are_points(shape)) {
     std::array<double, 3> spacing{1, 1, 1};
     for (std::size_t c = 0; c < static_cast<std::size_t>(shape.dimension); ++c) spacing[c] = shape.spacing;
     return spacing;
@@ -92,7 +92,7 @@ void fill_rings(ShapeSpec const& shape, ParticleSet& set, Body& body) {
   body.spacing = rings.spacing;
   body.lattice = rings.lattice;
   body.regular = false;
-  body.scattered = true;
+  body.off_lattice = true;
   auto const append = [](auto const& from, auto& to) {
     auto& own = to.own();
     own.insert(own.end(), from.begin(), from.end());
@@ -105,7 +105,7 @@ void fill_rings(ShapeSpec const& shape, ParticleSet& set, Body& body) {
 }
 
 void fill_lattice(ShapeSpec const& shape, ParticleSet& set, Body& body) {
-  Births const births(shape);
+  LatticeGenerator const births(shape);
   body.spacing = births.lattice().spacing;
   body.lattice = births.lattice().count;
   body.regular = !(shape.jitter > 0) && !shape.random;
@@ -121,10 +121,10 @@ void fill_lattice(ShapeSpec const& shape, ParticleSet& set, Body& body) {
   volume.resize(size);
   set.kernel_volume.resize(size, births.kernel_volume());
   set.body.resize(size, static_cast<int>(set.bodies.size()));
-  Births::each_run(runs, [&](std::size_t run, std::int64_t i) {
+  LatticeGenerator::each_run(runs, [&](std::size_t run, std::int64_t i) {
     std::size_t const at = first + static_cast<std::size_t>(runs[run].id + (i - runs[run].first));
     lattice_index[at] = {static_cast<int>(i), runs[run].j, runs[run].k};
-    Birth const birth = births.at(lattice_index[at]);
+    GeneratedParticle const birth = births.at(lattice_index[at]);
     X[at] = birth.X;
     volume[at] = birth.volume;
   });
@@ -137,8 +137,8 @@ void fill(ShapeSpec const& shape, std::string const& name, ParticleSet& set) {
   Body body;
   body.name = name;
   body.first = set.size();
-  if (!is_solid(shape) && !are_points(shape)) body.outline = outline_of(shape);
-  if (is_solid(shape))
+  if (!is_hypoelastic(shape) && !are_points(shape)) body.outline = outline_of(shape);
+  if (is_hypoelastic(shape))
     fill_solid(shape, set, body);
   else if (are_points(shape))
     fill_points(shape, set, body);

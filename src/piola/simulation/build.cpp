@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/build.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
-#include "piola/exec/exact_sum.hpp"
-#include "piola/exec/free_memory.hpp"
+#include "piola/exec/heap_tuning.hpp"
+#include "piola/exec/reproducible_sum.hpp"
 #include "piola/exec/threads.hpp"
+#include "piola/formulations/common/set_up_checks.hpp"
 #include "piola/formulations/derived_fields.hpp"
-#include "piola/formulations/make.hpp"
-#include "piola/formulations/set_up_checks.hpp"
+#include "piola/formulations/make_formulation.hpp"
+#include "piola/guards/warnings.hpp"
 #include "piola/input/check_case.hpp"
+#include "piola/input/contact_capabilities.hpp"
 #include "piola/input/formula_loop.hpp"
-#include "piola/input/formulations_of.hpp"
 #include "piola/input/region_checks.hpp"
-#include "piola/materials/solids.hpp"
-#include "piola/neighbours/cell_moments.hpp"
-#include "piola/particles/parts.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
+#include "piola/neighbours/particle_cells.hpp"
+#include "piola/particles/part_properties.hpp"
 #include "piola/setup/contact_surface.hpp"
-#include "piola/simulation/ranks.hpp"
-#include "piola/simulation/warnings.hpp"
+#include "piola/simulation/driver_and_workers.hpp"
 #include <algorithm>
 #include <string_view>
 
@@ -72,7 +72,7 @@ std::size_t index_of_body(std::string const& name, ParticleSet const& particles)
 
 /// The middle of some particles at the start [m].
 std::array<double, 3> middle_of(std::vector<std::int64_t> const& ids, ParticleSet const& particles) {
-  exec::ExactSums<4> sums;
+  exec::ReproducibleSums<4> sums;
   for (auto const id : ids) {
     auto const i = static_cast<std::size_t>(id);
     double const volume = particles.volume[i];
@@ -97,8 +97,8 @@ Support support_of(SupportSpec const& spec, CaseSpec const& from, ParticleSet co
                   .name = spec.name,
                   .about = middle_of(ids, particles)};
   if (!holds_surface(from, spec)) return support;
-  exec::ExactSums<4> sums;
-  for (FaceShare const& share : supported_shares(particles, body, spec)) {
+  exec::ReproducibleSums<4> sums;
+  for (FaceWeight const& share : supported_weights(particles, body, spec)) {
     support.normals.push_back(share.normal);
     double const area = share.area;
     double const of_share[]{area, area * share.middle[0], area * share.middle[1], area * share.middle[2]};
@@ -141,7 +141,7 @@ Load load_of(LoadSpec const& spec, CaseSpec const& from, ParticleSet const& part
     return load;
   }
   bool const flat = spec.face.part == Face::Part::flat;
-  for (FaceShare const& share : loaded_shares(particles, particles.bodies[b], spec)) {
+  for (FaceWeight const& share : loaded_weights(particles, particles.bodies[b], spec)) {
     double const mass = density(share.particle) * particles.volume[static_cast<std::size_t>(share.particle)];
     load.factor.push_back(share.area / mass);
     if (flat)
@@ -154,7 +154,7 @@ Load load_of(LoadSpec const& spec, CaseSpec const& from, ParticleSet const& part
 
 double mass_of(BodySpec const& spec, Body const& body, ParticleSet const& particles) {
   std::vector<double> const densities = densities_of(spec);
-  auto const parts = part_facts(particles, body, spec.parts.size());
+  auto const parts = part_properties(particles, body, spec.parts.size());
   double mass = 0;
   for (std::size_t k = 0; k < parts.size(); ++k) mass += parts[k].volume * densities[k];
   return mass;
@@ -251,7 +251,7 @@ Assembly assemble(CaseSpec const& spec, ParticleSet particles) {
   a.particles = std::move(particles);
   measure_volumes(spec, a.particles);
   a.cfl = spec.run.cfl;
-  a.machine = spec.run.machine;
+  a.backend = spec.run.backend;
   a.repartition = spec.run.repartition;
   a.initial_velocity.resize(a.particles.X.size());
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
@@ -281,17 +281,17 @@ Simulation build_from(CaseSpec spec, Assembly assembly) {
     simulation.mass += mass_of(spec.bodies[b], assembly.particles.bodies[b], assembly.particles);
   }
   for (RigidShape const& shape : assembly.rigid_shapes) simulation.mass += shape.mass;
-  refuse_on_ranks(assembly);
-  agree_to_go_on();
-  compare_on_ranks(assembly);
-  exec_host::fill_arrays_in_parts(ranks::count());
-  simulation.formulation = conducted(make_formulation(assembly));
+  refuse_unsupported_on_ranks(assembly);
+  agree_to_continue();
+  require_identical_case(assembly);
+  exec_host::set_lazy_allocation(comm::size());
+  simulation.formulation = driven_by_root(make_formulation(assembly));
   simulation.formulation_name = formulation_names(spec);
   check_fields(spec, *simulation.formulation, simulation.formulation_name);
-  agree_to_go_on();
-  double const step = std::min(simulation.formulation->settled_time_step(), spec.run.max_step);
-  Prospect prospect{.step = step};
-  if (any_contact(spec) && ranks::own() == 0) prospect.start = simulation.formulation->diagnose();
+  agree_to_continue();
+  double const step = std::min(simulation.formulation->steady_time_step(), spec.run.max_step);
+  StartEstimate prospect{.step = step};
+  if (any_contact(spec) && comm::rank() == 0) prospect.start = simulation.formulation->diagnose();
   if (prospect.start) refuse_unpaid_contact(spec, assembly.particles, *prospect.start);
   simulation.warnings = warnings_of(spec, assembly, prospect);
   for (SetUpCheck& check : set_up_checks_of(*simulation.formulation))
@@ -299,7 +299,7 @@ Simulation build_from(CaseSpec spec, Assembly assembly) {
   simulation.particles = std::move(assembly.particles);
   simulation.spec = std::move(spec);
   assembly = {};
-  exec_host::give_back_free_memory();
+  exec_host::trim_heap();
   return simulation;
 }
 

@@ -16,7 +16,7 @@ struct Simulation {
   std::string formulation_name;  ///< of the bodies, joined with " + " if there are several
   double mass = 0;               ///< kg (per unit thickness or section in 2D and 1D)
   int threads = 1;
-  std::vector<std::string> warnings;  ///< unusual settings of the case (simulation/warnings.hpp)
+  std::vector<std::string> warnings;  ///< unusual settings of the case (guards/warnings.hpp)
 };
 
 /// Creates the particles of a case and evaluates its formulas there. Throws InputError with all errors in regions and

@@ -22,34 +22,34 @@ double finest_spacing(ParticleSet const& particles) {
 GuardObserver::GuardObserver(Results results, double mass, HistoryObserver const& history)
     : results_(std::move(results)),
       history_(history),
-      scale_(mass, finest_spacing(results_.particles), energy_of_rounding(results_.spec, results_.particles)),
+      scale_(mass, finest_spacing(results_.particles), roundoff_energy(results_.spec, results_.particles)),
       jump_(results_.spec, results_.particles, scale_) {
   if (results_.spec.run.guards.on) guards_ = make_guards(results_.spec, results_.particles);
   told_.assign(guards_.size(), 0);
   kicked_ = starts_under_pressure(results_.spec);
 }
 
-void GuardObserver::see(Formulation const& formulation, Moment const& moment) {
+void GuardObserver::observe(Formulation const& formulation, TimeState const& moment) {
   if (guards_.empty() || (kicked_ && moment.step == 0)) return;
   bool const last = moment.time >= results_.spec.run.end || moment.at_rest;
   auto const step = static_cast<double>(moment.step);
   Diagnostics const* row = history_.row_of(moment.step);
-  jump_.see(formulation, moment, row, last);
+  jump_.observe(formulation, moment, row, last);
   if (row == nullptr && !last && step - last_look_ < look_interval) return;
   last_look_ = step;
   Diagnostics const own = row == nullptr ? formulation.diagnose() : *row;
-  scale_.see(own, moment);
+  scale_.observe(own, moment);
   FieldCache fields(formulation, results_.particles);
-  Look const look{formulation, moment, own, scale_, fields, last};
+  GuardInput const look{formulation, moment, own, scale_, fields, last};
   for (std::size_t k = 0; k < guards_.size(); ++k) {
     guards_[k]->look(look);
     if (told_[k] != 0 || moment.step == 0 || guards_[k]->words().empty()) continue;
     told_[k] = 1;
-    results_.journal.tell(fmt::format("so far, at t = {:.6g} s: {}", moment.time, guards_[k]->words()));
+    results_.journal.report(fmt::format("so far, at t = {:.6g} s: {}", moment.time, guards_[k]->words()));
   }
 }
 
-void GuardObserver::finish(Formulation const&, Moment const&, Ending) {
+void GuardObserver::finish(Formulation const&, TimeState const&, RunStatus) {
   for (auto const& guard : guards_) {
     if (auto const words = guard->words(); !words.empty()) results_.journal.warn(words);
   }
@@ -65,7 +65,7 @@ void GuardObserver::save(StateWriter& writer) const {
   for (auto const& guard : guards_) guard->save(writer);
 }
 
-void GuardObserver::load(NamedState& reader, Moment const& moment) {
+void GuardObserver::load(NamedState& reader, TimeState const& moment) {
   if (guards_.empty() || !reader.has("guards")) return;  // checkpoints of older versions have none
   auto const state = reader.all("guards");
   last_look_ = state[0];
@@ -76,10 +76,10 @@ void GuardObserver::load(NamedState& reader, Moment const& moment) {
   for (auto const& guard : guards_) guard->load(reader);
 }
 
-std::optional<Objection> GuardObserver::objection() const {
-  if (jump_.objection()) return jump_.objection();
+std::optional<StopRequest> GuardObserver::stop_request() const {
+  if (jump_.stop_request()) return jump_.stop_request();
   for (auto const& guard : guards_) {
-    if (auto objection = guard->objection()) return objection;
+    if (auto stop_request = guard->stop_request()) return stop_request;
   }
   return std::nullopt;
 }

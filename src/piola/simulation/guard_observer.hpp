@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/simulation/energy_jump.hpp"
-#include "piola/simulation/guard.hpp"
+#include "piola/guards/energy_jump.hpp"
+#include "piola/guards/guard.hpp"
 #include "piola/simulation/observers.hpp"
 
 namespace piola {
@@ -11,11 +11,11 @@ namespace piola {
 class GuardObserver : public Observer {
  public:
   GuardObserver(Results results, double mass, HistoryObserver const& history);
-  void see(Formulation const& formulation, Moment const& moment) override;
-  void finish(Formulation const& formulation, Moment const& moment, Ending ending) override;
+  void observe(Formulation const& formulation, TimeState const& moment) override;
+  void finish(Formulation const& formulation, TimeState const& moment, RunStatus ending) override;
   void save(StateWriter& writer) const override;
-  void load(NamedState& reader, Moment const& moment) override;
-  std::optional<Objection> objection() const override;
+  void load(NamedState& reader, TimeState const& moment) override;
+  std::optional<StopRequest> stop_request() const override;
   /// For the summary; empty if the guards are off.
   std::optional<std::vector<GuardNumbers>> report() const;
 

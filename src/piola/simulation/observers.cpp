@@ -2,12 +2,12 @@
 #include "piola/simulation/observers.hpp"
 #include "piola/base/text.hpp"
 #include "piola/base/version.hpp"
-#include "piola/exec/free_memory.hpp"
-#include "piola/exec/instruction_sets.hpp"
-#include "piola/input/formulations_of.hpp"
-#include "piola/output/files.hpp"
+#include "piola/exec/backend_registry.hpp"
+#include "piola/exec/heap_tuning.hpp"
+#include "piola/input/contact_capabilities.hpp"
+#include "piola/output/atomic_file.hpp"
 #include "piola/particles/particle_record.hpp"
-#include "piola/simulation/ranks.hpp"
+#include "piola/simulation/driver_and_workers.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -66,32 +66,33 @@ void HistoryObserver::open(Formulation const& formulation, std::optional<double>
   auto const path = results_.folder.empty() ? std::filesystem::path() : results_.folder / "history.csv";
   if (resume_time) {
     file_.emplace(path, std::move(columns), *resume_time, mark_);
-    if (!file_->complaint().empty()) results_.journal.warn(file_->complaint());
+    if (!file_->repair_note().empty()) results_.journal.warn(file_->repair_note());
   } else {
     file_.emplace(path, std::move(columns));
   }
 }
 
-void HistoryObserver::write_row(Formulation const& formulation, Moment const& moment) {
+void HistoryObserver::write_row(Formulation const& formulation, TimeState const& moment) {
   if (!seen_at_start_ || moment.step > 0) last_ = formulation.diagnose();
   last_step_ = moment.step;
   auto row = diagnostic_values(moment.time, moment.step, moment.dt, *last_);
-  for (auto const& more : probes_.evaluate(formulation, moment.time)) row.insert(row.end(), more.begin(), more.end());
+  for (auto const& more : probes_.evaluate(formulation, moment.time, evaluate_probes_collectively))
+    row.insert(row.end(), more.begin(), more.end());
   std::size_t const rows_before = empty_cells_.rows();
   empty_cells_.add(file_->append(row), moment.time);
   // The first such row is reported at once, columns that follow it in one warning at the end of the run.
   if (rows_before == 0 && empty_cells_.rows() > 0) results_.journal.warn(empty_cells_.text(0));
 }
 
-void HistoryObserver::see(Formulation const& formulation, Moment const& moment) {
+void HistoryObserver::observe(Formulation const& formulation, TimeState const& moment) {
   if (schedule_.due(moment.time)) write_row(formulation, moment);
 }
 
-void HistoryObserver::finish(Formulation const& formulation, Moment const& moment, Ending ending) {
+void HistoryObserver::finish(Formulation const& formulation, TimeState const& moment, RunStatus ending) {
   auto const& rows = table().rows;
   bool const written = !rows.empty() && rows.back()[1] == static_cast<double>(moment.step);
   // A stopped run gets no extra row, so that the history of a resumed run equals that of an uninterrupted one.
-  if (!written && ending != Ending::stopped) write_row(formulation, moment);
+  if (!written && ending != RunStatus::stopped) write_row(formulation, moment);
   if (empty_cells_.rows() > 1) results_.journal.warn(empty_cells_.text(1));
 }
 
@@ -104,7 +105,7 @@ void HistoryObserver::save(StateWriter& writer) const {
                                         static_cast<double>(mark.check_sum)});
 }
 
-void HistoryObserver::load(NamedState& reader, Moment const& moment) {
+void HistoryObserver::load(NamedState& reader, TimeState const& moment) {
   schedule_.start_after(moment.time);
   std::vector<Probe>& probes = probes_.probes();
   std::vector<double> angles(probes.size());
@@ -122,23 +123,23 @@ FrameObserver::FrameObserver(Results results)
       writer_(results_.folder, results_.spec.output.frame_fields, results_.spec.output.compress) {}
 
 void FrameObserver::write(Formulation const& formulation, double time) {
-  FieldCache cache(formulation, results_.particles, FieldCache::Of::owned);
-  writer_.write(time, cache, &with_frame_of_all);
+  FieldCache cache(formulation, results_.particles, FieldCache::Of::local);
+  writer_.write(time, cache, &write_frame_collectively);
 }
 
-void FrameObserver::see(Formulation const& formulation, Moment const& moment) {
+void FrameObserver::observe(Formulation const& formulation, TimeState const& moment) {
   if (schedule_.due(moment.time)) write(formulation, moment.time);
 }
 
-void FrameObserver::finish(Formulation const& formulation, Moment const& moment, Ending ending) {
+void FrameObserver::finish(Formulation const& formulation, TimeState const& moment, RunStatus ending) {
   bool const written = !writer_.times().empty() && writer_.times().back() == moment.time;
-  bool const wanted = ending == Ending::failed || (ending == Ending::completed && schedule_.ever());
+  bool const wanted = ending == RunStatus::failed || (ending == RunStatus::completed && schedule_.ever());
   if (wanted && !written) write(formulation, moment.time);
 }
 
 void FrameObserver::save(StateWriter& writer) const { writer.put("frame_times", writer_.times()); }
 
-void FrameObserver::load(NamedState& reader, Moment const& moment) {
+void FrameObserver::load(NamedState& reader, TimeState const& moment) {
   schedule_.start_after(moment.time);
   auto const missing = writer_.continue_after(reader.all("frame_times"));
   if (missing.empty()) return;
@@ -146,7 +147,7 @@ void FrameObserver::load(NamedState& reader, Moment const& moment) {
                                     missing.size(), writer_.times().size(), missing.size() == 1 ? "is" : "are"));
 }
 
-CheckpointObserver::CheckpointObserver(Results results, std::vector<Observer*> others, CheckpointOrders orders)
+CheckpointObserver::CheckpointObserver(Results results, std::vector<Observer*> others, CheckpointRequests orders)
     : results_(std::move(results)),
       schedule_(results_.spec.output.checkpoints_every),
       others_(std::move(others)),
@@ -155,7 +156,7 @@ CheckpointObserver::CheckpointObserver(Results results, std::vector<Observer*> o
   schedule_.due(0);  // the state at the start is the case itself
 }
 
-Checkpoint CheckpointObserver::take(Moment const& moment) const {
+Checkpoint CheckpointObserver::take(TimeState const& moment) const {
   // Without the build where the run has no identity: it stays so when the run is resumed.
   Identity const& identity = results_.spec.identity;
   Checkpoint c{moment.time,
@@ -166,7 +167,7 @@ Checkpoint CheckpointObserver::take(Moment const& moment) const {
                moment.stepping_seconds,
                moment.cut_to_end,
                identity.run.empty() ? std::string(version()) : identity.program,
-               exec_host::machine_text(results_.spec.run.machine),
+               exec_host::backend_text(results_.spec.run.backend),
                results_.spec.source,
                particles_,
                {},
@@ -176,27 +177,29 @@ Checkpoint CheckpointObserver::take(Moment const& moment) const {
   return c;
 }
 
-void CheckpointObserver::keep(Formulation const& formulation, Moment const& moment) {
+void CheckpointObserver::keep(Formulation const& formulation, TimeState const& moment) {
   auto const start = WallLimit::Clock::now();
   for (Observer* other : others_) other->sync();
   last_ = checkpoint_path(results_.folder, moment.step);
   keep_checkpoint(results_.folder, take(moment), [&](StateWriter& writer) { formulation.save(writer); });
-  exec_host::give_back_free_memory();
+  exec_host::trim_heap();
   if (orders_.wall != nullptr)
     orders_.wall->checkpoint_took(std::chrono::duration<double>(WallLimit::Clock::now() - start).count());
 }
 
-void CheckpointObserver::see(Formulation const& formulation, Moment const& moment) {
+void CheckpointObserver::observe(Formulation const& formulation, TimeState const& moment) {
   bool const due = schedule_.due(moment.time);
   bool const asked = orders_.request != nullptr && moment.step > 0 && orders_.request->exchange(0) != 0;
   if (due || asked) keep(formulation, moment);
   if (asked) results_.journal.note(fmt::format("checkpoint at step {}, t = {} s, as asked", moment.step, moment.time));
 }
 
-void CheckpointObserver::before_cut(Formulation const& formulation, Moment const& moment) { keep(formulation, moment); }
+void CheckpointObserver::before_shortened_step(Formulation const& formulation, TimeState const& moment) {
+  keep(formulation, moment);
+}
 
-void CheckpointObserver::finish(Formulation const& formulation, Moment const& moment, Ending ending) {
-  if (ending == Ending::failed) {
+void CheckpointObserver::finish(Formulation const& formulation, TimeState const& moment, RunStatus ending) {
+  if (ending == RunStatus::failed) {
     last_ = results_.folder / failed_checkpoint;
     write_checkpoint(last_, take(moment), [&](StateWriter& writer) { formulation.save(writer); });
   } else {
@@ -204,13 +207,13 @@ void CheckpointObserver::finish(Formulation const& formulation, Moment const& mo
   }
 }
 
-void CheckpointObserver::load(NamedState&, Moment const& moment) { schedule_.start_after(moment.time); }
+void CheckpointObserver::load(NamedState&, TimeState const& moment) { schedule_.start_after(moment.time); }
 
 ProgressObserver::ProgressObserver(Listener& listener, double end, std::int64_t particles,
                                    HistoryObserver const& history)
     : listener_(listener), end_(end), particles_(static_cast<double>(particles)), history_(history) {}
 
-void ProgressObserver::see(Formulation const& formulation, Moment const& moment) {
+void ProgressObserver::observe(Formulation const& formulation, TimeState const& moment) {
   constexpr std::chrono::milliseconds pause(200);
   auto const now = std::chrono::steady_clock::now();
   if (!first_) first_ = moment;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/restore.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
 #include "piola/base/version.hpp"
-#include "piola/exec/instruction_sets.hpp"
+#include "piola/exec/backend_registry.hpp"
 #include "piola/input/case_difference.hpp"
 #include "piola/output/checkpoint.hpp"
 #include "piola/particles/particle_record.hpp"
@@ -15,16 +15,16 @@ namespace {
 
 /// Differences that change the bits of a resumed run from those of an uninterrupted one. Such a run, and one resumed
 /// with changed keys, has no identity.
-void compare_origin(Checkpoint const& c, Simulation& s, bool changed, Journal& journal) {
-  std::string const here = exec_host::machine_text(s.spec.run.machine);
+void compare_origin(Checkpoint const& c, Simulation& s, bool changed, RunLog& journal) {
+  std::string const here = exec_host::backend_text(s.spec.run.backend);
   std::string const before = c.version.substr(0, c.version.find(' '));
   char const* const what = "the numbers may differ in their last digits from those of a run without interruption";
-  if (changed || c.version != s.spec.identity.program || c.machine != here) s.spec.identity.run.clear();
+  if (changed || c.version != s.spec.identity.program || c.backend != here) s.spec.identity.run.clear();
   if (before != version())
     journal.warn(fmt::format("the checkpoint was written by Piola {}, this is {}; {}", before, version(), what));
-  if (c.machine != here)
+  if (c.backend != here)
     journal.warn(
-        fmt::format("the checkpoint was written with the instruction set {}, this is {}; {}", c.machine, here, what));
+        fmt::format("the checkpoint was written with the instruction set {}, this is {}; {}", c.backend, here, what));
 }
 
 /// Differences of the case from that of the checkpoint, as lines for the log. Throws InputError if any of them would
@@ -68,11 +68,11 @@ void refuse_other_particles(Checkpoint const& c, ParticleSet const& particles, s
 
 }  // namespace
 
-std::optional<Moment> restore(Simulation& s, std::filesystem::path const& folder, Journal& journal,
-                              std::vector<Observer*> const& observers, bool cut_too) {
+std::optional<TimeState> restore(Simulation& s, std::filesystem::path const& folder, RunLog& journal,
+                                 std::vector<Observer*> const& observers, bool cut_too) {
   std::vector<std::string> warnings, changes;
   std::vector<std::filesystem::path> abandoned;
-  Moment moment;
+  TimeState moment;
   bool const found = use_newest_checkpoint(folder, warnings, [&](Checkpoint& c) {
     changes = accepted_changes(c, s.spec, folder);
     refuse_other_particles(c, s.particles, folder);

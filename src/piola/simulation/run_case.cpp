@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/run_case.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
-#include "piola/formulations/set_up_checks.hpp"
+#include "piola/formulations/common/set_up_checks.hpp"
+#include "piola/guards/failure_text.hpp"
+#include "piola/guards/formula_failure.hpp"
 #include "piola/input/case_files.hpp"
-#include "piola/output/files.hpp"
+#include "piola/observers/results_folder.hpp"
+#include "piola/output/atomic_file.hpp"
 #include "piola/output/folder_lock.hpp"
-#include "piola/setup/solid_bodies.hpp"
-#include "piola/simulation/failure_text.hpp"
-#include "piola/simulation/formula_failure.hpp"
+#include "piola/pictures/picture_observer.hpp"
+#include "piola/setup/packed_bodies.hpp"
+#include "piola/simulation/driver_and_workers.hpp"
+#include "piola/simulation/dynamic_relaxation.hpp"
 #include "piola/simulation/guard_observer.hpp"
 #include "piola/simulation/observers.hpp"
-#include "piola/simulation/picture_observer.hpp"
-#include "piola/simulation/ranks.hpp"
-#include "piola/simulation/relaxation.hpp"
 #include "piola/simulation/restore.hpp"
-#include "piola/simulation/results_folder.hpp"
 #include "piola/simulation/run_summary.hpp"
 #include <algorithm>
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ struct Watch {
   std::vector<Observer*> also;
   bool written;  // to a folder
 
-  Watch(Results const& results, double mass, Listener& listener, CheckpointOrders const& orders, Observer* last)
+  Watch(Results const& results, double mass, Listener& listener, CheckpointRequests const& orders, Observer* last)
       : history(results),
         guards(results, mass, history),
         frames(results),
@@ -61,11 +61,11 @@ namespace {
 
 std::string start_text(Simulation const& s) {
   return fmt::format("formulation {}, {} particles, {} thread(s), machine {}, end {}", s.formulation_name,
-                     count_text(s.particles.size()), s.threads, s.spec.run.machine, quantity_text(s.spec.run.end, "s"));
+                     count_text(s.particles.size()), s.threads, s.spec.run.backend, quantity_text(s.spec.run.end, "s"));
 }
 
 /// Copies a file unless it is too large.
-KeptFile keep_file(CaseFile const& file, std::size_t number, std::filesystem::path const& folder, Journal& journal) {
+KeptFile keep_file(CaseFile const& file, std::size_t number, std::filesystem::path const& folder, RunLog& journal) {
   constexpr std::uint64_t most = 50'000'000;
   KeptFile kept{file.given, "", std::filesystem::absolute(file.path), FileToRead(file.path).size(),
                 content_hash(file.path)};
@@ -80,7 +80,7 @@ KeptFile keep_file(CaseFile const& file, std::size_t number, std::filesystem::pa
 }
 
 /// Copies of the files that the case names, without which it could not be resumed elsewhere, and the list of them.
-void keep_files(CaseSpec const& spec, std::filesystem::path const& results, Journal& journal) {
+void keep_files(CaseSpec const& spec, std::filesystem::path const& results, RunLog& journal) {
   auto const folder = results / kept_files;
   for (BodySpec const& body : spec.bodies)
     if (body.shape.solid && body.shape.arrangement == ShapeSpec::Arrangement::packed) {
@@ -96,15 +96,15 @@ void keep_files(CaseSpec const& spec, std::filesystem::path const& results, Jour
 }
 
 /// Starts a new run: removes older results from the folder, saves the case, and observes the first state.
-Moment begin_new(Simulation& s, RunOptions const& options, Journal& journal, Watch& watch) {
+TimeState begin_new(Simulation& s, RunOptions const& options, RunLog& journal, Watch& watch) {
   journal.note(start_text(s));
   if (watch.written) {
     write_whole_file(options.folder / "case.toml", s.spec.source);
     keep_files(s.spec, options.folder, journal);
   }
   watch.history.open(*s.formulation, {});
-  Moment const moment;
-  for (Observer* observer : watch.all()) observer->see(*s.formulation, moment);
+  TimeState const moment;
+  for (Observer* observer : watch.all()) observer->observe(*s.formulation, moment);
   return moment;
 }
 
@@ -117,7 +117,7 @@ std::int64_t size_of_state(Formulation const& formulation) {
 
 /// Resumes a run: restores the state of the newest valid checkpoint, with permitted changes of the case that do not
 /// affect the state at a given time.
-Moment begin_again(Simulation& s, RunOptions const& options, Journal& journal, Watch& watch) {
+TimeState begin_again(Simulation& s, RunOptions const& options, RunLog& journal, Watch& watch) {
   Problems problems;
   compare_with_kept_list(s.spec, options.folder, problems);
   problems.raise_if_any();
@@ -138,7 +138,7 @@ Moment begin_again(Simulation& s, RunOptions const& options, Journal& journal, W
 }
 
 /// The numbers of the set-up.
-void report_set_up(Formulation const& formulation, Journal& journal) {
+void report_set_up(Formulation const& formulation, RunLog& journal) {
   std::string numbers;
   for (SetUpCheck const& check : set_up_checks_of(formulation))
     numbers += fmt::format("{}{} = {:.3g}", numbers.empty() ? "" : ", ", check.name, check.value);
@@ -146,7 +146,7 @@ void report_set_up(Formulation const& formulation, Journal& journal) {
 }
 
 /// Says how a dynamic relaxation came to rest.
-void report_rest(Relaxation const& relaxation, Journal& journal) {
+void report_rest(Relaxation const& relaxation, RunLog& journal) {
   if (!relaxation.active()) return;
   if (relaxation.rest().reached)
     journal.note(fmt::format("at rest after {} stops: {}", relaxation.rest().stops, relaxation.text()));
@@ -180,7 +180,7 @@ std::string missing_results(RunOptions const& options, Watch& watch) {
 }
 
 /// Names a formula that was not finite as the cause of a failure.
-void blame_formula(Simulation const& s, Moment const& moment, March& last) {
+void blame_formula(Simulation const& s, TimeState const& moment, LoopResult& last) {
   auto formula = failure_of_formula(s.spec, s.particles, moment);
   if (!formula) return;
   last.failure = std::move(*formula);
@@ -190,22 +190,26 @@ void blame_formula(Simulation const& s, Moment const& moment, March& last) {
 }
 
 /// Number of repartitions, as text.
-std::string recuts_text(Recuts const& recuts) {
+std::string recuts_text(RepartitionStatistics const& repartition_statistics) {
   auto const percent = [](double share) { return fmt::format("{:.0f} %", 100 * share); };
-  std::string text = fmt::format("particles were shared out among the ranks anew {} times", recuts.imbalance.size());
-  for (std::size_t k = 0; k < recuts.imbalance.size() && k < 5; ++k)
-    text += (k == 0 ? "; before, the busiest was above the mean by " : ", ") + percent(recuts.imbalance[k]);
-  return text + "; at the end by " + percent(recuts.last);
+  std::string text =
+      fmt::format("particles were shared out among the ranks anew {} times", repartition_statistics.imbalance.size());
+  for (std::size_t k = 0; k < repartition_statistics.imbalance.size() && k < 5; ++k)
+    text +=
+        (k == 0 ? "; before, the busiest was above the mean by " : ", ") + percent(repartition_statistics.imbalance[k]);
+  return text + "; at the end by " + percent(repartition_statistics.last);
 }
 
 /// Adds the results of observers and ranks over the whole run.
-void add_watched(Summary& summary, Simulation const& s, Watch const& watch, Journal& journal) {
+void add_watched(Summary& summary, Simulation const& s, Watch const& watch, RunLog& journal) {
   summary.guards = watch.guards.report();
   summary.ranks = traffic_on_ranks();
-  if (!summary.ranks.empty()) summary.recuts = s.formulation->recuts();
-  if (auto const& recuts = summary.recuts; recuts && !recuts->imbalance.empty()) journal.note(recuts_text(*recuts));
+  if (!summary.ranks.empty()) summary.repartition_statistics = s.formulation->repartition_statistics();
+  if (auto const& repartition_statistics = summary.repartition_statistics;
+      repartition_statistics && !repartition_statistics->imbalance.empty())
+    journal.note(recuts_text(*repartition_statistics));
   if (!watch.relaxation.active()) return;
-  Rest const& rest = watch.relaxation.rest();
+  RelaxationStatus const& rest = watch.relaxation.rest();
   summary.relaxation = {rest.reached, rest.residual, rest.stops};
 }
 
@@ -223,11 +227,11 @@ struct CaseRun::Parts {
   RunOptions options;
   std::atomic<int> const& stop;
   std::unique_ptr<FolderLock> lock;  // null if nothing is written
-  Journal journal;
+  RunLog journal;
   WallLimit wall;
   Watch watch;
-  Moment moment;
-  March last;  // how the last part ended
+  TimeState moment;
+  LoopResult last;  // how the last part ended
 
   Parts(Simulation& s, RunOptions const& given, Listener& listener, std::atomic<int> const& stop_request)
       : simulation(s),
@@ -242,7 +246,7 @@ struct CaseRun::Parts {
 
 CaseRun::CaseRun(Simulation& s, RunOptions const& options, Listener& listener, std::atomic<int> const& stop)
     : parts_(std::make_unique<Parts>(s, options, listener, stop)) {
-  Journal& journal = parts_->journal;
+  RunLog& journal = parts_->journal;
   if (!options.resume) {
     if (!options.folder.empty()) clear_results(options.folder);
     journal.start(log_headline(s.spec.title));
@@ -262,23 +266,23 @@ CaseRun::CaseRun(Simulation& s, RunOptions const& options, Listener& listener, s
 
 CaseRun::~CaseRun() = default;
 
-Moment const& CaseRun::moment() const { return parts_->moment; }
-void CaseRun::put_moment(Moment const& moment) { parts_->moment = moment; }
+TimeState const& CaseRun::moment() const { return parts_->moment; }
+void CaseRun::put_moment(TimeState const& moment) { parts_->moment = moment; }
 HistoryTable const& CaseRun::history() const { return parts_->watch.history.table(); }
 void CaseRun::also(Observer& observer) { parts_->watch.also.push_back(&observer); }
 
-March const& CaseRun::advance(Pause const& pause) {
+LoopResult const& CaseRun::advance(Pause const& pause) {
   Parts& p = *parts_;
   RunSpec run = p.simulation.spec.run;
   // A cut step changes the steps after it: the case alone no longer determines the results.
   if (pause.exactly && pause.time < run.end) p.simulation.spec.identity.run.clear();
   if (pause.exactly) run.end = std::min(run.end, pause.time);
   p.last = march(*p.simulation.formulation, run, p.moment, p.watch.all(), {p.stop, p.wall, pause}, &p.watch.relaxation);
-  p.last.paused = p.last.paused || (p.last.ending == Ending::completed && !p.moment.at_rest &&
+  p.last.paused = p.last.paused || (p.last.ending == RunStatus::completed && !p.moment.at_rest &&
                                     p.moment.time < p.simulation.spec.run.end);
-  if (p.last.ending == Ending::completed && !p.last.paused && p.watch.relaxation.unfinished()) {
-    Objection const not_at_rest = p.watch.relaxation.objection_at_end();
-    p.last = {.ending = Ending::failed, .failure = not_at_rest.failure, .causes = not_at_rest.causes};
+  if (p.last.ending == RunStatus::completed && !p.last.paused && p.watch.relaxation.unfinished()) {
+    StopRequest const not_at_rest = p.watch.relaxation.objection_at_end();
+    p.last = {.ending = RunStatus::failed, .failure = not_at_rest.failure, .causes = not_at_rest.causes};
   }
   return p.last;
 }
@@ -286,7 +290,7 @@ March const& CaseRun::advance(Pause const& pause) {
 CaseOutcome CaseRun::finish() {
   Parts& p = *parts_;
   Simulation const& s = p.simulation;
-  Ending const ending = p.last.paused ? Ending::stopped : p.last.ending;
+  RunStatus const ending = p.last.paused ? RunStatus::stopped : p.last.ending;
   report_rest(p.watch.relaxation, p.journal);
   for (Observer* observer : p.watch.all()) observer->finish(*s.formulation, p.moment, ending);
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/observers/run_log.hpp"
+#include "piola/observers/time_state.hpp"
 #include "piola/output/history.hpp"
 #include "piola/output/summary.hpp"
 #include "piola/simulation/build.hpp"
-#include "piola/simulation/journal.hpp"
-#include "piola/simulation/moment.hpp"
 #include "piola/simulation/observers.hpp"
-#include "piola/simulation/run.hpp"
-#include "piola/simulation/wall_limit.hpp"
+#include "piola/simulation/time_loop.hpp"
+#include "piola/simulation/wall_time_limit.hpp"
 #include <atomic>
 #include <filesystem>
 #include <memory>
@@ -29,7 +29,7 @@ struct RunOptions {
 };
 
 struct CaseOutcome {
-  Ending ending = Ending::completed;
+  RunStatus ending = RunStatus::completed;
   Summary summary;
   std::string failure;                        ///< the message for the user if ending is failed
   bool out_of_time = false;                   ///< stopped by the wall-time limit
@@ -47,15 +47,15 @@ class CaseRun {
   CaseRun(CaseRun const&) = delete;
   CaseRun& operator=(CaseRun const&) = delete;
   /// Continues to the pause or to the end. A run with inexact pauses is bit-identical to one without. Throws FileError.
-  March const& advance(Pause const& pause = {});
+  LoopResult const& advance(Pause const& pause = {});
   /// Ends the output: the last row and frame of a completed or failed run, a checkpoint of a paused or stopped one.
   /// Call once. Throws FileError.
   CaseOutcome finish();
   /// Adds an observer from the next step on; it is not saved in checkpoints.
   void also(Observer& observer);
-  Moment const& moment() const;
+  TimeState const& moment() const;
   /// Sets the moment of a state that was set in the formulation externally, in a run without output.
-  void put_moment(Moment const& moment);
+  void put_moment(TimeState const& moment);
   HistoryTable const& history() const;
 
  private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/run_summary.hpp"
 #include "piola/base/version.hpp"
-#include "piola/formulations/set_up_checks.hpp"
-#include "piola/input/case_facts.hpp"
-#include "piola/simulation/quantities.hpp"
+#include "piola/formulations/common/set_up_checks.hpp"
+#include "piola/input/body_properties.hpp"
+#include "piola/measures/quantities.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -64,7 +64,7 @@ bool is_left_alone(RigidSpec const& rigid) {
 /// The largest rho c^2 of the bodies, with the speed c of pressure waves at rest [Pa].
 double wave_modulus(Simulation const& s) {
   double modulus = 0;
-  auto const facts = body_facts(s.spec, s.particles);
+  auto const facts = body_properties(s.spec, s.particles);
   for (std::size_t b = 0; b < facts.size(); ++b) {
     Body const& body = s.particles.bodies[b];
     double const volume =
@@ -92,10 +92,10 @@ void add_conservation(Summary& summary, HistoryTable const& history, Simulation 
   summary.angular_drift = momentum > 0 && arm > 0 ? drift(history, "angular_momentum") / (momentum * arm) : 0;
 }
 
-std::string status_word(Ending ending) {
+std::string status_word(RunStatus ending) {
   switch (ending) {
-    case Ending::completed: return "completed";
-    case Ending::failed: return "failed";
+    case RunStatus::completed: return "completed";
+    case RunStatus::failed: return "failed";
     default: return "stopped";
   }
 }
@@ -105,8 +105,8 @@ std::string status_word(Ending ending) {
 double energy_increase(HistoryTable const& history) { return largest_rise(history, 1); }
 double energy_decrease(HistoryTable const& history) { return largest_rise(history, -1); }
 
-Summary summarise(Simulation const& s, Moment const& moment, Ending ending, HistoryTable const& history,
-                  Journal& journal) {
+Summary summarise(Simulation const& s, TimeState const& moment, RunStatus ending, HistoryTable const& history,
+                  RunLog& journal) {
   Summary summary;
   summary.status = status_word(ending);
   summary.title = s.spec.title;
@@ -121,13 +121,13 @@ Summary summarise(Simulation const& s, Moment const& moment, Ending ending, Hist
   double const stages =
       static_cast<double>(moment.step) * s.formulation->stages_per_step() * static_cast<double>(summary.particles);
   summary.stages_per_second = moment.stepping_seconds > 0 ? stages / moment.stepping_seconds : 0;
-  summary.seconds = s.formulation->costs();
+  summary.seconds = s.formulation->timings();
   for (SetUpCheck const& check : set_up_checks_of(*s.formulation)) summary.set_up.emplace_back(check.name, check.value);
   add_conservation(summary, history, s);
   for (QuantitySpec const& spec : s.spec.quantities) {
     std::string why;
     if (auto const value = measure(spec, history, why)) summary.quantities.push_back(*value);
-    if (!why.empty() && ending == Ending::completed) journal.warn(why);
+    if (!why.empty() && ending == RunStatus::completed) journal.warn(why);
   }
   summary.warnings = journal.warnings();
   return summary;

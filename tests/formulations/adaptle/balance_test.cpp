@@ -42,20 +42,20 @@ struct Kind {
   int dimension;
   Mixture mixture;
   std::string correction;
-  std::string machine;
+  std::string backend;
   /// Whether linear fields have exact gradients.
   bool exact() const { return correction == "mixed" || (correction == "material" && mixture == Mixture::lagrangian); }
   friend std::ostream& operator<<(std::ostream& out, Kind const& k) {
     constexpr std::array names{"eulerian", "lagrangian", "halves", "blended"};
     return out << k.dimension << "D " << names[static_cast<std::size_t>(k.mixture)] << " " << k.correction << " "
-               << k.machine;
+               << k.backend;
   }
 };
 
 /// A cloud before its state is random.
 Assembly cloud_assembly(Kind const& k) {
   Assembly a = adaptle_assembly(unit_box(k.dimension, k.dimension == 2 ? 14 : 8, 0.15));
-  a.machine = k.machine;
+  a.backend = k.backend;
   choose(a, "smoothing_length", 1.4);
   choose(a, "correction", k.correction);
   choose(a, "correction_limit", 1e30);
@@ -129,8 +129,8 @@ TEST_P(AdaptleBalance, ViscosityAndArtificialStressHaveBooksOfTheirOwn) {
     Cloud cloud(a);
     make_random(cloud, GetParam());
     cloud.evaluate();
-    viscous[k] = 1e25 * cloud.particles->books().viscous_loss;  // a step takes 1e-25 s
-    artificial[k] = 1e25 * cloud.particles->books().artificial_work;
+    viscous[k] = 1e25 * cloud.particles->energy_totals().viscous_loss;  // a step takes 1e-25 s
+    artificial[k] = 1e25 * cloud.particles->energy_totals().artificial_work;
     double heat = 0;
     for (Index i = 0; i < cloud.size(); ++i) {
       heat += cloud.sums(i).heat;
@@ -191,8 +191,8 @@ TEST_P(AdaptleBalance, ThePrintedViscosityKeepsMomentumAndEnergy) {
 /// Viscosity along the line of centres has no torque; that of set (2) has.
 TEST(AdaptleBalances, CentralViscosityHasNoTorque) {
   for (int const dimension : {2, 3})
-    for (auto const& machine : adaptle_machines()) {
-      Kind const k{dimension, Mixture::lagrangian, "material", machine};
+    for (auto const& backend : adaptle_machines()) {
+      Kind const k{dimension, Mixture::lagrangian, "material", backend};
       Assembly a = cloud_assembly(k);
       choose(a, "hourglass", 0.0);
       for (std::string const form : {"central", "printed"}) {
@@ -245,7 +245,7 @@ std::vector<Kind> kinds() {
   for (int const dimension : {2, 3})
     for (Mixture const m : {Mixture::eulerian, Mixture::lagrangian, Mixture::halves, Mixture::blended})
       for (std::string const correction : {"none", "material", "mixed"})
-        for (auto const& machine : adaptle_machines()) r.push_back({dimension, m, correction, machine});
+        for (auto const& backend : adaptle_machines()) r.push_back({dimension, m, correction, backend});
   return r;
 }
 INSTANTIATE_TEST_SUITE_P(All, AdaptleBalance, ::testing::ValuesIn(kinds()));
@@ -294,8 +294,8 @@ TEST(AdaptleBalances, ThePrintedInterfaceHasExactGradientsToo) {
 
 TEST(AdaptleBalances, RiemannFluxesKeepMomentumAndEnergy) {
   for (int const dimension : {2, 3})
-    for (auto const& machine : adaptle_machines()) {
-      Kind const k{dimension, Mixture::eulerian, "none", machine};
+    for (auto const& backend : adaptle_machines()) {
+      Kind const k{dimension, Mixture::eulerian, "none", backend};
       Assembly a = cloud_assembly(k);
       choose(a, "viscosity", "riemann");
       Cloud cloud(a);

@@ -35,7 +35,7 @@ struct Components {
 /// A particle's state, to be read and written where it is.
 struct State {
   Components x, v, S;
-  double &rho, &energy, &plastic_strain, &plastic_work, &damage, &viscosity, &phi, &alive, &released, &energy_rate;
+  double &rho, &energy, &plastic_strain, &plastic_work, &damage, &viscosity, &phi, &active, &released, &energy_rate;
 
   State(adaptle::ParticleFields const& f, Index i)
       : x(part(f.x, i, 3)),
@@ -48,7 +48,7 @@ struct State {
         damage(value_at(f.damage, i)),
         viscosity(value_at(f.viscosity, i)),
         phi(value_at(f.phi, i)),
-        alive(value_at(f.alive, i)),
+        active(value_at(f.active, i)),
         released(value_at(f.released, i)),
         energy_rate(value_at(f.energy_rate, i)) {}
 
@@ -69,7 +69,7 @@ struct Deformation {
 
 inline std::vector<std::string> adaptle_machines() {
   std::vector<std::string> r;
-  for (auto names = adaptle::machine_names(); *names != nullptr; ++names) r.push_back(*names);
+  for (auto names = adaptle::backend_names(); *names != nullptr; ++names) r.push_back(*names);
   return r;
 }
 
@@ -102,7 +102,7 @@ inline double take_steps(Formulation& f, double time, int steps) {
 struct Cloud {
   explicit Cloud(Assembly const& a)
       : particles(std::make_unique<adaptle::Particles>(a, adaptle::read_options(a),
-                                                       *adaptle::find_machine(a.machine.c_str()))),
+                                                       *adaptle::find_backend(a.backend.c_str()))),
         state{&particles->system().field} {}
   Index size() const { return system().particles; }
   System const& system() const { return particles->system(); }

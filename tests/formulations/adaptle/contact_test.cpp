@@ -11,7 +11,7 @@ using namespace testing;
 using adaptle::BodyConstants;
 using adaptle::ContactForce;
 using adaptle::ContactPair;
-using adaptle::RigidPlace;
+using adaptle::RigidPoseAtHalfTime;
 
 template <int D>
 void force_is_minus_the_slope_of_the_energy() {
@@ -126,7 +126,7 @@ TEST(AdaptleContact, ExponentRisesWhereStrengthPresses) {
 TEST(AdaptleContact, WhatTheCaseSaysOfTheExponentHolds) {
   std::vector<BodyConstants> const bodies{metal(2800, 5000, 0.4e9), metal(7800, 4500, 1e9)};
   ContactRule rule;
-  for (auto const law : {ContactRule::Law::kernel, ContactRule::Law::printed}) {
+  for (auto const law : {ContactRule::Law::kernel, ContactRule::Law::as_published}) {
     rule.law = law;
     rule.exponent = 6;
     EXPECT_EQ(adaptle::contact_pairs(3, rule, bodies, {{500, 0, 0}, {0, 0, 0}})[1].exponent, 6);
@@ -144,7 +144,7 @@ struct Seen {
   std::array<double, 3> normal;
 };
 template <int D>
-Seen look(RigidPlace const& shape, std::array<double, 3> x) {
+Seen look(RigidPoseAtHalfTime const& shape, std::array<double, 3> x) {
   Seen r{};
   r.distance = adaptle::distance_to<D>(shape, x.data(), r.normal.data());
   return r;
@@ -154,8 +154,8 @@ void expect(Seen const& seen, double distance, std::array<double, 3> normal) {
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(seen.normal[c], normal[c], 1e-14) << c;
 }
 
-RigidPlace place(RigidShape::Kind kind) {
-  RigidPlace p{};
+RigidPoseAtHalfTime place(RigidShape::Kind kind) {
+  RigidPoseAtHalfTime p{};
   p.kind = static_cast<int>(kind);
   p.centre[0] = 1;
   p.axis[1] = 1;
@@ -163,7 +163,7 @@ RigidPlace place(RigidShape::Kind kind) {
 }
 
 TEST(AdaptleRigid, PlanesAreHalfSpaces) {
-  RigidPlace p = place(RigidShape::Kind::plane);
+  RigidPoseAtHalfTime p = place(RigidShape::Kind::plane);
   p.axis[0] = 0.6;
   p.axis[1] = 0.8;
   expect(look<2>(p, {2, 1, 0}), 1.4, {0.6, 0.8, 0});
@@ -171,7 +171,7 @@ TEST(AdaptleRigid, PlanesAreHalfSpaces) {
 }
 
 TEST(AdaptleRigid, Spheres) {
-  RigidPlace p = place(RigidShape::Kind::sphere);
+  RigidPoseAtHalfTime p = place(RigidShape::Kind::sphere);
   p.radius = 2;
   expect(look<3>(p, {1, 0, -3}), 1, {0, 0, -1});
   expect(look<3>(p, {1.6, 0.8, 0}), -1, {0.6, 0.8, 0});
@@ -180,7 +180,7 @@ TEST(AdaptleRigid, Spheres) {
 }
 
 TEST(AdaptleRigid, Cylinders) {
-  RigidPlace p = place(RigidShape::Kind::cylinder);  // along y
+  RigidPoseAtHalfTime p = place(RigidShape::Kind::cylinder);  // along y
   p.radius = 1;
   p.half[0] = 2;
   expect(look<3>(p, {1, 3, 0}), 1, {0, 1, 0});
@@ -193,7 +193,7 @@ TEST(AdaptleRigid, Cylinders) {
 }
 
 TEST(AdaptleRigid, Boxes) {
-  RigidPlace p = place(RigidShape::Kind::box);
+  RigidPoseAtHalfTime p = place(RigidShape::Kind::box);
   p.half[0] = 2;
   p.half[1] = 1;
   p.half[2] = 3;
@@ -227,7 +227,7 @@ Assembly two_particles(int dimension) {
 TEST(AdaptleContact, TwoParticlesReboundWithTheirSpeed) {
   for (int const dimension : {2, 3})
     for (std::string const description : {"eulerian", "total_lagrangian"})
-      for (auto const law : {ContactRule::Law::kernel, ContactRule::Law::linear, ContactRule::Law::printed}) {
+      for (auto const law : {ContactRule::Law::kernel, ContactRule::Law::linear, ContactRule::Law::as_published}) {
         Assembly a = two_particles(dimension);
         choose(a, "description", description);
         a.contact.law = law;
@@ -295,7 +295,7 @@ TEST(AdaptleRigid, StepsKnowHowFastAParticleComes) {
 
 // Particles that start within reach of each other: the energy of the contact counts from the start.
 TEST(AdaptleContact, PotentialAtTheStartBecomesMotion) {
-  for (auto const law : {ContactRule::Law::kernel, ContactRule::Law::linear, ContactRule::Law::printed}) {
+  for (auto const law : {ContactRule::Law::kernel, ContactRule::Law::linear, ContactRule::Law::as_published}) {
     Assembly a = two_particles(2);
     a.initial_velocity.assign(2, {0, 0, 0});
     a.contact.law = law;

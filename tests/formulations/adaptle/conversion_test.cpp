@@ -38,14 +38,14 @@ TEST(AdaptleConversion, TakesTheReferenceNeighboursWithinTheRadius) {
     cloud.state[middle].damage = 1;
     cloud.evaluate();
     EXPECT_EQ(eulerian(cloud), within(cloud, middle, radius * 1.3 * 0.1));
-    auto const& books = cloud.particles->books();
-    EXPECT_EQ(books.converted, static_cast<double>(eulerian(cloud).size()));
-    EXPECT_EQ(books.by_guard, 0);
+    auto const& energy_totals = cloud.particles->energy_totals();
+    EXPECT_EQ(energy_totals.converted, static_cast<double>(eulerian(cloud).size()));
+    EXPECT_EQ(energy_totals.by_guard, 0);
     double mass = 0;
     for (Index const i : eulerian(cloud)) mass += cloud.mass(i);
-    EXPECT_NEAR(books.converted_mass, mass, 1e-12 * mass);
+    EXPECT_NEAR(energy_totals.converted_mass, mass, 1e-12 * mass);
     cloud.evaluate();
-    EXPECT_EQ(books.converted, static_cast<double>(eulerian(cloud).size())) << "their neighbours go no further";
+    EXPECT_EQ(energy_totals.converted, static_cast<double>(eulerian(cloud).size())) << "their neighbours go no further";
   }
 }
 
@@ -94,7 +94,7 @@ TEST(AdaptleConversion, GuardsVolumesAndTethers) {
   Cloud flat(a);
   flat.evaluate();
   EXPECT_EQ(eulerian(flat).size(), 49u);
-  EXPECT_EQ(flat.particles->books().by_guard, 49);
+  EXPECT_EQ(flat.particles->energy_totals().by_guard, 49);
 
   // One particle is Eulerian and has left its place by 1.5 h: those that have it for a neighbour follow, alone.
   for (double const tether : {1.0, 2.0}) {
@@ -116,7 +116,7 @@ TEST(AdaptleConversion, GuardsVolumesAndTethers) {
     std::set<Index> const found = eulerian(torn), near = within(torn, middle, 2 * h);
     EXPECT_GT(found.size(), 3u);
     EXPECT_TRUE(std::includes(near.begin(), near.end(), found.begin(), found.end()));
-    EXPECT_EQ(torn.particles->books().by_guard, static_cast<double>(found.size() - 1));
+    EXPECT_EQ(torn.particles->energy_totals().by_guard, static_cast<double>(found.size() - 1));
   }
 }
 
@@ -151,8 +151,8 @@ TEST(AdaptleConversion, KeepsTheStateAndFindsTheDensityOfTheEndOfTheStep) {
   EXPECT_NEAR(turns.state[40].rho, 2870 / (1 + rate * steps * dt), 2870 * rate * dt * rate * dt / 7);
   double kinetic = 0;
   for (Index i = 0; i < turns.size(); ++i) kinetic += 0.5 * turns.mass(i) * std::pow(turns.state[i].v[0], 2);
-  EXPECT_LT(turns.particles->books().energy_change, 1e-14 * kinetic);
-  EXPECT_LT(turns.particles->books().momentum_change, 1e-14 * kinetic / rate);
+  EXPECT_LT(turns.particles->energy_totals().energy_change, 1e-14 * kinetic);
+  EXPECT_LT(turns.particles->energy_totals().momentum_change, 1e-14 * kinetic / rate);
 }
 
 /// A particle that is stretched or compressed along x, sheared, and failed.
@@ -179,7 +179,7 @@ TEST(AdaptleRelease, LeavesNeitherShearNorTensionButCompression) {
       cloud.evaluate();
       for (double const S : cloud.state[24].S) EXPECT_EQ(S, 0) << description;
       EXPECT_EQ(cloud.state[23].S[0], 1e6) << "sound material keeps its stress";
-      EXPECT_EQ(cloud.state[24].alive, 1);
+      EXPECT_EQ(cloud.state[24].active, 1);
       if (stretch > 1) {
         EXPECT_EQ(cloud.half(24).pressure, 0);
         EXPECT_LT(cloud.half(23).pressure, 0);
@@ -243,8 +243,8 @@ TEST(AdaptleDeletion, LeavesParticlesWithoutStressAndWithTheirDeformation) {
   Index const gone = 40;
   cloud.state[gone].damage = 1;
   advance_cloud(1);
-  ASSERT_EQ(cloud.state[gone].alive, 0);
-  EXPECT_EQ(cloud.particles->books().deleted, 1);
+  ASSERT_EQ(cloud.state[gone].active, 0);
+  EXPECT_EQ(cloud.particles->energy_totals().deleted, 1);
   EXPECT_EQ(cloud.state[gone].phi, 0);
   Deformation const kept = cloud.deformation(gone);
   double const v = cloud.state[gone].v[0];
@@ -254,8 +254,8 @@ TEST(AdaptleDeletion, LeavesParticlesWithoutStressAndWithTheirDeformation) {
   for (double const S : cloud.state[gone].S) EXPECT_EQ(S, 0);
   EXPECT_EQ(cloud.half(gone).pressure, 0);
   EXPECT_EQ(cloud.state[gone].v[0], v) << "nothing pulls at it";
-  EXPECT_EQ(cloud.particles->books().deleted, 1);
-  for (Index i = 0; i < cloud.size(); ++i) EXPECT_EQ(cloud.state[i].alive, i == gone ? 0 : 1);
+  EXPECT_EQ(cloud.particles->energy_totals().deleted, 1);
+  for (Index i = 0; i < cloud.size(); ++i) EXPECT_EQ(cloud.state[i].active, i == gone ? 0 : 1);
 }
 
 /// A checkpoint holds deformation only once there are deleted particles, whose deformation no positions tell.

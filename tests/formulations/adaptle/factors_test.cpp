@@ -9,7 +9,7 @@ namespace {
 using namespace testing;
 
 /// A metal that tears, each particle at its own strain.
-MaterialParameters scattered() {
+MaterialParameters off_lattice() {
   return parameters_by_name("perfectly_plastic", "elastic", "johnson_cook",
                             {{"density", 2700},
                              {"youngs_modulus", 70e9},
@@ -85,12 +85,13 @@ TEST_P(PointFactorRuns, KeepTheirEnergy) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, PointFactorRuns,
-                         ::testing::Values(Subject{"scatter", &scattered, 400, ""}, Subject{"glass", &glass, -3000, ""},
+                         ::testing::Values(Subject{"scatter", &off_lattice, 400, ""},
+                                           Subject{"glass", &glass, -3000, ""},
                                            Subject{"explosive", &explosive, 0, "X/7980"}),
                          [](auto const& subject) { return subject.param.name; });
 
 TEST(PointFactors, LetParticlesFailOneAfterTheOther) {
-  Assembly const a = made({"", &scattered, 400, ""});
+  Assembly const a = made({"", &off_lattice, 400, ""});
   auto const f = make_formulation(a);
   double last = 0;
   int rises = 0;

@@ -33,7 +33,7 @@ Assembly lattice_assembly(LatticeKind const& k, bool regular) {
   return a;
 }
 
-Values sums_of(Cloud& cloud, int dimension) {
+Values parallel_sums(Cloud& cloud, int dimension) {
   shake_up(cloud, dimension, 0.01);
   cloud.evaluate();
   Values r;
@@ -44,7 +44,7 @@ Values sums_of(Cloud& cloud, int dimension) {
   return r;
 }
 
-Values numbers_of(Cloud const& cloud, double Sums::*member) {
+Values value_count(Cloud const& cloud, double Sums::*member) {
   Values r;
   for (Index i = 0; i < cloud.size(); ++i) r.push_back(cloud.sums(i).*member);
   return r;
@@ -57,13 +57,13 @@ TEST_P(AdaptleLattice, HasTheSumsOfItsLists) {
   Cloud lattice(lattice_assembly(k, true)), list(lattice_assembly(k, false));
   ASSERT_NE(lattice.system().material.rows_of[0].record, nullptr);
   ASSERT_EQ(list.system().material.rows_of[0].record, nullptr);
-  Values const force = sums_of(lattice, k.dimension), expected = sums_of(list, k.dimension);
+  Values const force = parallel_sums(lattice, k.dimension), expected = parallel_sums(list, k.dimension);
   EXPECT_LT(largest_difference(force, expected), k.tolerance() * largest(expected));
   for (double Sums::*const member : {&Sums::heat, &Sums::hourglass, &Sums::compression}) {
-    Values const value = numbers_of(lattice, member), wanted = numbers_of(list, member);
+    Values const value = value_count(lattice, member), wanted = value_count(list, member);
     EXPECT_LE(largest_difference(value, wanted), k.tolerance() * largest(wanted));
   }
-  EXPECT_GT(largest(numbers_of(list, &Sums::heat)), 0);
+  EXPECT_GT(largest(value_count(list, &Sums::heat)), 0);
   for (Index i = 0; i < list.size(); ++i) {
     Deformation const &d = lattice.deformation(i), &e = list.deformation(i);
     EXPECT_EQ(d.gap < 0, e.gap < 0);

@@ -24,12 +24,12 @@ Assembly two_bars() {
 }
 
 /// As long as it lives, bodies that are made are dealt out.
-class Dealt {
+class SlotPermutation {
  public:
-  explicit Dealt(int owners, std::int64_t* moved = nullptr) : before_(set_shuffle({owners, 5, moved})) {}
-  Dealt(Dealt const&) = delete;
-  Dealt& operator=(Dealt const&) = delete;
-  ~Dealt() { set_shuffle(before_); }
+  explicit SlotPermutation(int owners, std::int64_t* moved = nullptr) : before_(set_shuffle({owners, 5, moved})) {}
+  SlotPermutation(SlotPermutation const&) = delete;
+  SlotPermutation& operator=(SlotPermutation const&) = delete;
+  ~SlotPermutation() { set_shuffle(before_); }
 
  private:
   Shuffle before_;
@@ -37,7 +37,7 @@ class Dealt {
 
 std::unique_ptr<Formulation> made(Assembly const& a, int owners) {
   std::int64_t moved = 0;
-  Dealt const dealt(owners, &moved);
+  SlotPermutation const dealt(owners, &moved);
   auto f = make_formulation(a);
   EXPECT_EQ(moved > 0, owners > 0);
   return f;
@@ -69,7 +69,7 @@ TEST(OrderOfAdaptle, PushesGoToTheParticlesThatAreMeant) {
     auto const f = made(a, 4 * k);
     std::vector<Point> change;
     for (auto const id : ids) change.push_back({1.0 * static_cast<double>(id), 2, 3});
-    f->push(ids, change);
+    f->add_velocities(ids, change);
     mass[k].resize(ids.size());
     x[k].resize(ids.size());
     v[k].resize(ids.size());

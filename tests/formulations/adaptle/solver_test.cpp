@@ -8,7 +8,7 @@ namespace {
 using namespace testing;
 
 /// Two plates that meet at 400 m/s; the left one tears as it goes.
-Assembly collision(int dimension, std::string const& correction, std::string const& machine, double gap) {
+Assembly collision(int dimension, std::string const& correction, std::string const& backend, double gap) {
   ParticleSet set = unit_box(dimension, dimension == 2 ? 12 : 6, 0.1);
   ShapeSpec shape;
   shape.dimension = dimension;
@@ -20,7 +20,7 @@ Assembly collision(int dimension, std::string const& correction, std::string con
   }
   fill(shape, "target", set);
   Assembly a = adaptle_assembly(std::move(set), sample_metal("johnson_cook", "mie_grueneisen", "johnson_cook"));
-  a.machine = machine;
+  a.backend = backend;
   choose(a, "correction", correction);
   choose(a, "conversion_radius", 1.0);
   choose_formula(a, "convert_when", dimension == 2 ? "X + 0.2*Y > 1.1 - 1.2e4*t" : "X + 0.2*Y + 0.1*Z > 1.3 - 5e3*t");
@@ -47,8 +47,8 @@ double number(Formulation const& f, std::string_view name) {
 
 class AdaptleRuns : public ::testing::TestWithParam<std::tuple<int, std::string>> {
  protected:
-  Assembly assembly(std::string const& machine = "auto", double gap = 1.5) const {
-    return collision(std::get<0>(GetParam()), std::get<1>(GetParam()), machine, gap);
+  Assembly assembly(std::string const& backend = "auto", double gap = 1.5) const {
+    return collision(std::get<0>(GetParam()), std::get<1>(GetParam()), backend, gap);
   }
 };
 
@@ -78,7 +78,7 @@ TEST_P(AdaptleRuns, AreTheSameWithAnyNumberOfThreads) {
   std::map<std::string, Values, std::less<>> first;
   for (int const threads : testing::thread_counts) {
     Threads const set(threads);
-    ASSERT_EQ(exec::team(Range{0, static_cast<Index>(a.particles.X.size())}), threads);
+    ASSERT_EQ(exec::team_size(Range{0, static_cast<Index>(a.particles.X.size())}), threads);
     auto const f = make_formulation(a);
     take_steps(*f, 0, 25);
     if (threads == 1) first = saved(*f).values;
@@ -88,8 +88,8 @@ TEST_P(AdaptleRuns, AreTheSameWithAnyNumberOfThreads) {
 
 TEST_P(AdaptleRuns, AgreeOnAllMachines) {
   Values x, v, p;
-  for (auto const& machine : adaptle_machines()) {
-    Assembly const a = assembly(machine);
+  for (auto const& backend : adaptle_machines()) {
+    Assembly const a = assembly(backend);
     std::size_t const n = a.particles.X.size();
     auto const f = make_formulation(a);
     // The same steps on each.
@@ -102,9 +102,9 @@ TEST_P(AdaptleRuns, AgreeOnAllMachines) {
       v = speed;
       p = pressure;
     }
-    EXPECT_LT(largest_difference(here, x), 1e-10) << machine;
-    EXPECT_LT(largest_difference(speed, v), 1e-10 * largest(v)) << machine;
-    EXPECT_LT(largest_difference(pressure, p), 1e-10 * largest(p)) << machine;
+    EXPECT_LT(largest_difference(here, x), 1e-10) << backend;
+    EXPECT_LT(largest_difference(speed, v), 1e-10 * largest(v)) << backend;
+    EXPECT_LT(largest_difference(pressure, p), 1e-10 * largest(p)) << backend;
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_advection/solver.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "formulations/small_bodies.hpp"
 #include <complex>
 #include <limits>

@@ -17,7 +17,7 @@ Assembly incompressible_box(double jitter = 0, double poissons_ratio = 0.499) {
   return a;
 }
 
-double books(Diagnostics const& d) { return d.total_energy() + d.stabilisation_loss + d.projection_loss; }
+double energy_totals(Diagnostics const& d) { return d.total_energy() + d.stabilisation_loss + d.projection_loss; }
 
 TEST(VolumetricFilter, HasRowSumsOfOneWithPositiveDiagonalOnRegularAndJitteredBodies) {
   for (double const jitter : {0.0, 0.2}) {
@@ -78,11 +78,11 @@ TEST(FilteredScheme, ConservesItsEnergyToSecondOrderWithoutStabilisation) {
 
 TEST(FilteredScheme, ClosesTheBooksOfEnergyWithStabilisation) {
   auto const f = make_formulation(incompressible_box());
-  double const before = books(f->diagnose());
+  double const before = energy_totals(f->diagnose());
   advance(*f, 1e-5, 300);
   ASSERT_FALSE(f->failure().has_value());
   EXPECT_GT(f->diagnose().stabilisation_loss, 0);
-  EXPECT_NEAR(books(f->diagnose()) / before, 1, 1e-4);  // Verlet's energy wobbles with dt^2
+  EXPECT_NEAR(energy_totals(f->diagnose()) / before, 1, 1e-4);  // Verlet's energy wobbles with dt^2
 }
 
 /// The stability formula against what happens: energy stays at 0.9 of the limit and blows up at 1.3 of it.

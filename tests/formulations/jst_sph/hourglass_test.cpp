@@ -149,9 +149,9 @@ TEST(HourglassForces, VanishForQuadraticDisplacementsInside) {
       return Point{0.1 * X[0] * X[0] - 0.05 * X[1] * X[2], dimension > 1 ? 0.1 * X[0] * X[1] : 0,
                    dimension > 2 ? 0.1 * X[2] * X[2] - 0.1 * X[0] * X[1] : 0};
     });
-    jst_sph::Machine const& machine = *jst_sph::find_machine("auto");
-    jst_sph::JstBody body(a, a.particles, 0, jst_sph::read_options(a.formulations[0], a.materials[0], 0.3), machine);
-    machine.observe_energy(body.state());
+    jst_sph::Backend const& backend = *jst_sph::find_backend("auto");
+    jst_sph::JstBody body(a, a.particles, 0, jst_sph::read_options(a.formulations[0], a.materials[0], 0.3), backend);
+    backend.observe_energy(body.state());
     double inside = 0, outside = 0;
     for (Index i = 0; i < body.particles(); ++i) {
       auto const X = body.X(i);
@@ -203,7 +203,7 @@ TEST(ConservativeScheme, KnowsTheStepAtWhichItBlowsUp) {
     for (double const viscosity : {0.0, 1.0, 3.0}) {
       Assembly a = conservative(unit_box(3, 5), rubber("neo_hookean", poissons_ratio));
       choose(a, "hourglass_viscosity", viscosity);
-      double const limit = make_formulation(a)->settled_time_step() / 0.7;
+      double const limit = make_formulation(a)->steady_time_step() / 0.7;
       give_velocity(a, [](Point const& X) {
         double const s = std::sin(977 * X[0] + 641 * X[1] * X[1] + 353 * X[2]);
         return Point{1e-6 * s, -1e-6 * std::cos(1231 * s), 1e-6 * std::sin(733 * s)};
@@ -231,7 +231,7 @@ TEST(ConservativeScheme, HardlyDampsVibrationsThatItResolves) {
     give_velocity(a, [&](Point const& X) { return Point{speed * std::cos(std::numbers::pi * X[0] / L), 0, 0}; });
     auto const f = make_formulation(a);
     double const before = f->diagnose().total_energy(), period = 2 * L / std::sqrt(youngs_modulus / 1100);
-    int const steps = static_cast<int>(period / (0.5 * f->settled_time_step())) + 1;
+    int const steps = static_cast<int>(period / (0.5 * f->steady_time_step())) + 1;
     advance(*f, period / steps, steps);
     return f->diagnose().stabilisation_loss / before;
   };

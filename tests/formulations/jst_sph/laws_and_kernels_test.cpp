@@ -27,12 +27,12 @@ class EveryLaw : public ::testing::TestWithParam<LawInfo> {
 };
 
 TEST_P(EveryLaw, GivesTheSameMotionOnEveryMachine) {
-  if (machines().size() < 2) GTEST_SKIP() << "this build has one machine";
+  if (backends().size() < 2) GTEST_SKIP() << "this build has one machine";
   for (auto const* variables : {"pF", "pFHJ"}) {
     Assembly a = tumbling(variables);
     Values reference;
-    for (std::string const& machine : {machines().back(), std::string("auto")}) {
-      a.machine = machine;
+    for (std::string const& backend : {backends().back(), std::string("auto")}) {
+      a.backend = backend;
       auto const f = make_formulation(a);
       advance(*f, 5e-5, 40);
       EXPECT_FALSE(f->failure().has_value());

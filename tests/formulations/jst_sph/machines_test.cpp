@@ -32,35 +32,35 @@ struct Setting {
 
 class EveryMachine : public ::testing::TestWithParam<Setting> {
  protected:
-  Assembly assembly(std::string const& machine) const {
+  Assembly assembly(std::string const& backend) const {
     auto const& s = GetParam();
     Assembly a = tumbling_box(s.dimension, s.dimension == 1 ? 21 : s.dimension == 2 ? 9 : 6, s.jitter);
     choose(a, "scheme", s.scheme);
     choose(a, "variables", s.variables);
     if (s.scheme == "paper") choose(a, "eps2_momentum", 1.0 / 32);
     support(a, {true, true, true}, [](Point const& X) { return X[0] < 1e-9; });
-    a.machine = machine;
+    a.backend = backend;
     return a;
   }
 };
 
 TEST_P(EveryMachine, GivesTheSameMotion) {
-  if (machines().size() < 2) GTEST_SKIP() << "this build has one machine";
-  Values const reference = end_state(assembly(machines().back()));
+  if (backends().size() < 2) GTEST_SKIP() << "this build has one machine";
+  Values const reference = end_state(assembly(backends().back()));
   ASSERT_GT(largest(reference), 0.5);
-  for (auto const& machine : machines())
-    EXPECT_LT(largest_difference(end_state(assembly(machine)), reference), 1e-10) << machine;
+  for (auto const& backend : backends())
+    EXPECT_LT(largest_difference(end_state(assembly(backend)), reference), 1e-10) << backend;
 }
 
 TEST_P(EveryMachine, GivesTheSameBitsForAnyNumberOfThreads) {
-  for (auto const& machine : machines()) {
+  for (auto const& backend : backends()) {
     Values one;
     for (int const threads : testing::thread_counts) {
       Threads const keep(threads);
-      Values const more = end_state(assembly(machine));
+      Values const more = end_state(assembly(backend));
       if (threads == 1) one = more;
       ASSERT_EQ(one.size(), more.size());
-      EXPECT_EQ(std::memcmp(one.data(), more.data(), one.size() * sizeof(double)), 0) << machine << ", " << threads;
+      EXPECT_EQ(std::memcmp(one.data(), more.data(), one.size() * sizeof(double)), 0) << backend << ", " << threads;
     }
   }
 }
@@ -68,15 +68,15 @@ TEST_P(EveryMachine, GivesTheSameBitsForAnyNumberOfThreads) {
 /// Patterns of a lattice against lists of the same particles: geometry rounds differently, nothing else.
 TEST_P(EveryMachine, GivesTheSameMotionWithPatternsAndWithLists) {
   if (GetParam().jitter > 0) GTEST_SKIP() << "irregular bodies always use lists";
-  for (auto const& machine : machines()) {
-    Assembly a = assembly(machine);
+  for (auto const& backend : backends()) {
+    Assembly a = assembly(backend);
     Values const patterns = end_state(a);
     a.particles.bodies[0].regular = false;
     if (GetParam().scheme == "conservative") {  // whose defaults are others on irregular clouds
       a.formulations[0].numbers["gradient_support"] = 0.8;
       a.formulations[0].numbers["hourglass_stiffness"] = 0.5;
     }
-    EXPECT_LT(largest_difference(end_state(a), patterns), 1e-11) << machine;
+    EXPECT_LT(largest_difference(end_state(a), patterns), 1e-11) << backend;
   }
 }
 
@@ -96,18 +96,18 @@ INSTANTIATE_TEST_SUITE_P(All, EveryMachine, ::testing::ValuesIn(settings()), [](
 });
 
 TEST(Machines, AreListedBestFirstAndFoundByName) {
-  auto const names = machines();
+  auto const names = backends();
   ASSERT_FALSE(names.empty());
-  EXPECT_EQ(jst_sph::find_machine("auto")->name, names.front());
+  EXPECT_EQ(jst_sph::find_backend("auto")->name, names.front());
   int lanes = 1 << 10;
   for (auto const& name : names) {
-    jst_sph::Machine const* const machine = jst_sph::find_machine(name.c_str());
-    ASSERT_NE(machine, nullptr);
-    EXPECT_EQ(machine->name, name);
-    EXPECT_LE(machine->lanes, lanes);
-    lanes = machine->lanes;
+    jst_sph::Backend const* const backend = jst_sph::find_backend(name.c_str());
+    ASSERT_NE(backend, nullptr);
+    EXPECT_EQ(backend->name, name);
+    EXPECT_LE(backend->lanes, lanes);
+    lanes = backend->lanes;
   }
-  EXPECT_EQ(jst_sph::find_machine("abacus"), nullptr);
+  EXPECT_EQ(jst_sph::find_backend("abacus"), nullptr);
 }
 
 /// In whichever lane or block it is: steps would else follow from the others.
@@ -121,8 +121,8 @@ TEST(Machines, NoticeAWaveSpeedThatIsNotANumber) {
   body.slots = {0, slots};
   body.wave_speed = speeds.ref();
   body.partial = partial.data();
-  for (auto const& name : machines()) {
-    auto const largest = jst_sph::find_machine(name.c_str())->largest_wave_speed;
+  for (auto const& name : backends()) {
+    auto const largest = jst_sph::find_backend(name.c_str())->largest_wave_speed;
     EXPECT_EQ(largest(body), 99 + slots) << name;
     for (Index const at : {0, 5, 63, 64, slots - 1}) {
       speeds.at(at) = std::nan("");

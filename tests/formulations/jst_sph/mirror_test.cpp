@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "formulations/mirrored_parts.hpp"
 #include <numbers>
 
@@ -153,12 +153,12 @@ TEST(MirrorPlanes, GiveTheSameOnEveryMachine) {
   for (int axis = 0; axis < 3; ++axis) a.mirrors.push_back({0, axis, false});
   give_velocity(a, [](Point const& X) { return Point{9 * X[0], -3 * X[1], X[2]}; });
   std::vector<Values> ends;
-  for (auto const& machine : machines()) {
-    a.machine = machine;
+  for (auto const& backend : backends()) {
+    a.backend = backend;
     auto const f = make_formulation(a);
     advance(*f, 1e-4, 10);
     ends.push_back(sample(*f, "Velocity", a.particles.X.size()));
-    EXPECT_LT(largest_difference(ends.back(), ends.front()), 1e-11) << machine;
+    EXPECT_LT(largest_difference(ends.back(), ends.front()), 1e-11) << backend;
   }
 }
 

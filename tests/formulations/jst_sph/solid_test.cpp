@@ -170,20 +170,20 @@ TEST(Solids, GiveTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Solids, GiveTheSameMotionOnEveryMachine) {
-  if (machines().size() < 2) GTEST_SKIP() << "this build has one machine";
+  if (backends().size() < 2) GTEST_SKIP() << "this build has one machine";
   for (auto const* scheme : {"filtered", "paper"})
     for (int const dimension : {1, 2, 3}) {
       Assembly a = yielding(dimension, dimension == 1 ? 21 : 7, scheme, "johnson_cook");
-      auto const run = [&](std::string const& machine) {
-        a.machine = machine;
+      auto const run = [&](std::string const& backend) {
+        a.backend = backend;
         auto const f = make_formulation(a);
         advance(*f, dt, 40);
         EXPECT_FALSE(f->failure().has_value());
         return sample(*f, "Velocity", a.particles.X.size());
       };
-      Values const reference = run(machines().back());
-      for (auto const& machine : machines())
-        EXPECT_LT(largest_difference(run(machine), reference), 1e-9 * largest(reference)) << machine << scheme;
+      Values const reference = run(backends().back());
+      for (auto const& backend : backends())
+        EXPECT_LT(largest_difference(run(backend), reference), 1e-9 * largest(reference)) << backend << scheme;
     }
 }
 
@@ -209,7 +209,7 @@ TEST(Solids, TakeTheStepOfTheCurrentConfiguration) {
       choose(a, "scheme", scheme);
       double const across = 1 / std::sqrt(stretch);
       a.initial_deformation_gradient.assign(a.particles.X.size(), {across, 0, 0, 0, across, 0, 0, 0, stretch});
-      return make_formulation(a)->settled_time_step();
+      return make_formulation(a)->steady_time_step();
     };
     double const ratio = limit(0.2) / limit(1);
     EXPECT_LT(ratio, 0.25) << scheme;

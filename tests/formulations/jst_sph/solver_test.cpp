@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/solver.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "formulations/small_bodies.hpp"
 
 namespace piola {
@@ -20,9 +20,9 @@ Values state(Formulation const& f) {
 class Checkpoint : public ::testing::TestWithParam<std::tuple<std::string, std::string, double>> {};
 
 TEST_P(Checkpoint, ContinuesWithTheSameBits) {
-  auto const& [machine, variables, jitter] = GetParam();
+  auto const& [backend, variables, jitter] = GetParam();
   Assembly a = tumbling_box(3, 5, jitter);
-  a.machine = machine;
+  a.backend = backend;
   choose(a, "variables", variables);
   support(a, {true, false, true}, [](Point const& X) { return X[1] < 1e-9; });
   auto const whole = make_formulation(a), first = make_formulation(a), second = make_formulation(a);
@@ -40,7 +40,7 @@ TEST_P(Checkpoint, ContinuesWithTheSameBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Checkpoint,
-                         ::testing::Combine(::testing::ValuesIn(machines()), ::testing::Values("pF", "displacement"),
+                         ::testing::Combine(::testing::ValuesIn(backends()), ::testing::Values("pF", "displacement"),
                                             ::testing::Values(0.0, 0.2)));
 
 TEST(Checkpoint, IsInTheOrderOfIds) {
@@ -54,11 +54,11 @@ TEST(Checkpoint, IsInTheOrderOfIds) {
 
 TEST(Checkpoint, OfOneMachineContinuesOnAnother) {
   Assembly a = tumbling_box(3, 5);
-  a.machine = machines().front();
+  a.backend = backends().front();
   auto const first = make_formulation(a);
   advance(*first, 1e-4, 3);
   SavedState s = saved(*first);
-  a.machine = machines().back();
+  a.backend = backends().back();
   auto const second = make_formulation(a);
   second->load(s);
   EXPECT_EQ(state(*first), state(*second));
@@ -150,9 +150,9 @@ TEST(StableTimeStep, FollowsTheDeformationOfTheLastStep) {
 class InvertedParticle : public ::testing::TestWithParam<std::tuple<std::string, double>> {};
 
 TEST_P(InvertedParticle, IsReportedWithItsNumberPlaceAndDeterminant) {
-  auto const& [machine, jitter] = GetParam();
+  auto const& [backend, jitter] = GetParam();
   Assembly a = assemble(unit_box(3, 5, jitter));
-  a.machine = machine;
+  a.backend = backend;
   std::int64_t const bad = 57;
   a.initial_deformation_gradient.assign(a.particles.X.size(), {1, 0, 0, 0, 1, 0, 0, 0, 1});
   auto const f = make_formulation(a);
@@ -180,9 +180,9 @@ TEST_P(InvertedParticle, IsReportedWithItsNumberPlaceAndDeterminant) {
 }
 
 TEST_P(InvertedParticle, IsReportedForAnyNumberOfThreadsAsTheSameOne) {
-  auto const& [machine, jitter] = GetParam();
+  auto const& [backend, jitter] = GetParam();
   Assembly a = assemble(unit_box(3, 7, jitter));
-  a.machine = machine;
+  a.backend = backend;
   a.initial_deformation_gradient.assign(a.particles.X.size(), {-0.1, 0, 0, 0, 1, 0, 0, 0, 1});
   std::int64_t first = -1;
   for (int const threads : {1, 2, 3, 7}) {
@@ -196,7 +196,7 @@ TEST_P(InvertedParticle, IsReportedForAnyNumberOfThreadsAsTheSameOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, InvertedParticle,
-                         ::testing::Combine(::testing::ValuesIn(machines()), ::testing::Values(0.0, 0.2)));
+                         ::testing::Combine(::testing::ValuesIn(backends()), ::testing::Values(0.0, 0.2)));
 
 TEST(Failure, OfNumbersThatAreNotNumbersIsReported) {
   Assembly a = assemble(unit_box(3, 5));
@@ -240,10 +240,10 @@ TEST(TwoBodies, MoveAsEachWouldAlone) {
 
 TEST(Solver, RefusesAMachineThatItDoesNotHaveAndNamesThoseItHas) {
   Assembly a = assemble(unit_box(2, 5));
-  a.machine = "abacus";
+  a.backend = "abacus";
   std::string const text = refusal(a);
   EXPECT_NE(text.find("'abacus'"), std::string::npos) << text;
-  for (auto const& name : machines()) EXPECT_NE(text.find(name), std::string::npos) << text;
+  for (auto const& name : backends()) EXPECT_NE(text.find(name), std::string::npos) << text;
 }
 
 TEST(Solver, RefusesAFormulationThatDoesNotExist) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/formulations/nodal/fit.hpp"
+#include "piola/formulations/nodal/local_fits.hpp"
 #include "exec/thread_count.hpp"
 #include "formulations/nodal/nodal_bodies.hpp"
 
@@ -35,9 +35,9 @@ constexpr double of_the_solve = 1e-8;
 TEST(NodalLattice, HasTheForcesOfListsOnEveryMachineAndInEveryOrientation) {
   for (int D = 1; D <= 3; ++D)
     for (int longest = 0; longest < D; ++longest)
-      for (auto const& machine : machines()) {
+      for (auto const& backend : backends()) {
         Assembly a = bent_lattice(D, longest);
-        a.machine = machine;
+        a.backend = backend;
         EXPECT_TRUE(SetUpBody(a).reference.lattice);
         EXPECT_FALSE(SetUpBody(as_cloud(a)).reference.lattice);
         auto const lattice = forces(a), lists = forces(as_cloud(a));
@@ -45,7 +45,7 @@ TEST(NodalLattice, HasTheForcesOfListsOnEveryMachineAndInEveryOrientation) {
         EXPECT_GT(scale, 0);
         for (std::size_t id = 0; id < lists.size(); ++id)
           for (std::size_t c = 0; c < 3; ++c)
-            EXPECT_NEAR(lattice[id][c], lists[id][c], of_the_solve * scale) << D << longest << machine << id;
+            EXPECT_NEAR(lattice[id][c], lists[id][c], of_the_solve * scale) << D << longest << backend << id;
       }
 }
 
@@ -107,7 +107,7 @@ TEST(NodalLattice, KnowsItsPairsWithoutASearch) {
     X.push_back(a.particles.X[static_cast<std::size_t>(order.id[static_cast<std::size_t>(i)])]);
     for (std::size_t c = 0; c < 3; ++c) X.back()[c] /= a.particles.bodies[0].spacing[c];
   }
-  nodal::Entries const all(order.particles);
+  nodal::IndexSet const all(order.particles);
   for (double const reach : {2.4, 3.0}) {
     auto const known = nodal::lattice_pairs(*shape, reach, all),
                found = nodal::find_pairs(X, std::vector<double>(X.size(), reach), all);
@@ -150,8 +150,8 @@ TEST(NodalLattice, MeasuresTheChangesOfItsParticlesAlone) {
   body.slots = {0, slots};
   body.change = change.ref();
   body.partial = partial.data();
-  for (auto names = nodal::machine_names(); *names != nullptr; ++names)
-    EXPECT_EQ(nodal::find_machine(*names)->largest_change(body), 0.001 * (slots - 1)) << *names;
+  for (auto names = nodal::backend_names(); *names != nullptr; ++names)
+    EXPECT_EQ(nodal::find_backend(*names)->largest_change(body), 0.001 * (slots - 1)) << *names;
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ void press(Assembly& a, ShapeSpec const& shape, Face const& face, double pressur
   load.value = {Expression(std::to_string(pressure)), Expression("0"), Expression("0")};
   load.pressure = true;
   load.follows = follows;
-  for (auto const& share : face_shares(shape, a.particles, a.particles.bodies[0], face)) {
+  for (auto const& share : face_weights(shape, a.particles, a.particles.bodies[0], face)) {
     load.particles.push_back(share.particle);
     auto const id = static_cast<std::size_t>(share.particle);
     load.factor.push_back(share.area / (rubber().value[0] * a.particles.volume[id]));

@@ -263,12 +263,12 @@ TEST(NodalMirror, GivesTheSameOnEveryMachine) {
   for (int axis = 0; axis < 3; ++axis) a.mirrors.push_back({0, axis, false});
   give_velocity(a, [](Point const& X) { return Point{9 * X[0], -3 * X[1], X[2]}; });
   std::vector<Values> ends;
-  for (auto const& machine : machines()) {
-    a.machine = machine;
+  for (auto const& backend : backends()) {
+    a.backend = backend;
     auto const f = make_formulation(a);
     advance(*f, 1e-5, 20);
     ends.push_back(sample(*f, "Velocity", a.particles.X.size()));
-    EXPECT_LT(largest_difference(ends.back(), ends.front()), 1e-9) << machine;
+    EXPECT_LT(largest_difference(ends.back(), ends.front()), 1e-9) << backend;
   }
 }
 

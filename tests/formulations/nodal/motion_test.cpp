@@ -192,20 +192,20 @@ TEST(NodalMotion, GoesOnBitForBitFromACheckpoint) {
 TEST(NodalMotion, IsTheSameOnEveryMachineUpToRoundOff) {
   Assembly a = tumbling(3, 0.2);
   Values reference;
-  for (auto const& machine : machines()) {
-    a.machine = machine;
+  for (auto const& backend : backends()) {
+    a.backend = backend;
     auto const f = make_formulation(a);
     advance(*f, 1e-4, 20);
     auto const x = sample(*f, "Position", a.particles.X.size());
     if (reference.empty()) reference = x;
-    EXPECT_LT(largest_difference(x, reference), 1e-12) << machine;
+    EXPECT_LT(largest_difference(x, reference), 1e-12) << backend;
   }
 }
 
 TEST(NodalMotion, MeasuresItsStepWhenStrainsHaveChangedAndElseRarely) {
-  auto const fewest_steps_between = [](double speed, std::string const& machine) {
+  auto const fewest_steps_between = [](double speed, std::string const& backend) {
     Assembly a = nodal_body(unit_box(3, 5));  // 125 particles: some slots have none
-    a.machine = machine;
+    a.backend = backend;
     give_velocity(a, [&](Point const& X) { return Point{speed * X[0] * X[0], 0, 0}; });
     auto const f = make_formulation(a);
     double time = 0, fewest = 1e9;
@@ -218,9 +218,9 @@ TEST(NodalMotion, MeasuresItsStepWhenStrainsHaveChangedAndElseRarely) {
     }
     return fewest;
   };
-  for (auto const& machine : machines()) {
-    EXPECT_EQ(fewest_steps_between(0.01, machine), 25) << machine;
-    EXPECT_LT(fewest_steps_between(60, machine), 20) << machine;
+  for (auto const& backend : backends()) {
+    EXPECT_EQ(fewest_steps_between(0.01, backend), 25) << backend;
+    EXPECT_LT(fewest_steps_between(60, backend), 20) << backend;
   }
 }
 

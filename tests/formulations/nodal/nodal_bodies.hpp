@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/formulations/nodal/set_up.hpp"
 #include "piola/materials/laws.hpp"
-#include "piola/neighbours/cell_moments.hpp"
+#include "piola/neighbours/particle_cells.hpp"
 #include "formulations/small_bodies.hpp"
 
 /// Small bodies under the nodal formulation.
@@ -49,7 +49,7 @@ struct SetUpBody {
         order(nodal::slot_order(set, set.bodies[0])),
         densities(densities_of(a)),
         reference(nodal::make_reference({set, set.bodies[0], order, a.loads, a.supports, densities, least_mass,
-                                         *nodal::find_machine(a.machine.c_str())})) {}
+                                         *nodal::find_backend(a.backend.c_str())})) {}
   static Values densities_of(Assembly const& a) {
     Values densities;
     for (MaterialParameters const& m : materials_of(a, 0)) densities.push_back(m.value[0]);

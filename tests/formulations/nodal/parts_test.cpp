@@ -39,8 +39,8 @@ TEST_P(NodalParts, OfOneMaterialAreNoParts) {
 TEST_P(NodalParts, AreTheSameOnEveryMachine) {
   Assembly a = layered(GetParam());
   auto const best = moved(a);
-  for (auto const& name : machines()) {
-    a.machine = name;
+  for (auto const& name : backends()) {
+    a.backend = name;
     EXPECT_LT(largest_difference(moved(a), best), 1e-12) << name;
   }
 }
@@ -87,7 +87,7 @@ TEST_P(NodalParts, KeepMomentumAndEnergy) {
   Assembly const a = layered(GetParam());
   auto const f = make_formulation(a);
   auto const before = f->diagnose();
-  advance(*f, 0.25 * f->settled_time_step(), 400);
+  advance(*f, 0.25 * f->steady_time_step(), 400);
   auto const after = f->diagnose();
   EXPECT_GT(after.strain_energy, 1e-3 * before.total_energy());
   EXPECT_NEAR(after.total_energy(), before.total_energy(), 1e-3 * before.total_energy());

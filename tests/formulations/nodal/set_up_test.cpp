@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/formulations/doubts.hpp"
+#include "piola/formulations/setting_warnings.hpp"
 #include "formulations/nodal/nodal_bodies.hpp"
 
 namespace piola::testing {
@@ -200,7 +200,7 @@ TEST(NodalDoubts, AreAboutPressuresThatFollowAFaceAndVaryAlongIt) {
     load.normal = Point{1, 0, 0};
     for (std::int64_t id = 0; id < a.particles.size(); ++id) load.particles.push_back(id);
     a.loads.push_back(load);
-    return doubts(a).size();
+    return setting_warnings(a).size();
   };
   EXPECT_EQ(count("1000*(Y - 0.7)*min(t/30, 1)", true, false), 1U);
   EXPECT_EQ(count("1000*(Y - 0.7)", true, true), 0U);
@@ -210,7 +210,7 @@ TEST(NodalDoubts, AreAboutPressuresThatFollowAFaceAndVaryAlongIt) {
 
 TEST(NodalDoubts, AreAboutThreeParticlesAcrossNearIncompressibility) {
   auto const count = [](int across, double ratio) {
-    return doubts(nodal_body(brick(3, 0, {across, 5, 6}), rubber("neo_hookean", ratio))).size();
+    return setting_warnings(nodal_body(brick(3, 0, {across, 5, 6}), rubber("neo_hookean", ratio))).size();
   };
   EXPECT_EQ(count(3, 0.499), 1U);
   EXPECT_EQ(count(4, 0.499), 0U);

@@ -164,17 +164,17 @@ TEST_P(NodalSolids, GiveTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST_P(NodalSolids, GiveTheSameMotionOnEveryMachine) {
-  if (machines().size() < 2) GTEST_SKIP() << "this build has one machine";
+  if (backends().size() < 2) GTEST_SKIP() << "this build has one machine";
   Assembly a = tumbling(GetParam(), "johnson_cook");
-  auto const run = [&](std::string const& machine) {
-    a.machine = machine;
+  auto const run = [&](std::string const& backend) {
+    a.backend = backend;
     auto const f = make_formulation(a);
     advance(*f, dt, 40);
     return sample(*f, "Velocity", a.particles.X.size());
   };
-  Values const reference = run(machines().back());
-  for (auto const& machine : machines())
-    EXPECT_LT(largest_difference(run(machine), reference), 1e-9 * largest(reference)) << machine;
+  Values const reference = run(backends().back());
+  for (auto const& backend : backends())
+    EXPECT_LT(largest_difference(run(backend), reference), 1e-9 * largest(reference)) << backend;
 }
 
 /// What follows the step limit asks for trial steps, which must leave no trace; nor must observers.

@@ -123,8 +123,8 @@ TEST_P(AdjointMotion, PassesThePatchTest) {
 TEST_P(AdjointMotion, IsTheSameOnEveryMachineAndThroughACheckpoint) {
   Assembly a = assembly(GetParam(), 1);
   Values reference;
-  for (auto const& machine : machines()) {
-    a.machine = machine;
+  for (auto const& backend : backends()) {
+    a.backend = backend;
     auto const whole = make_formulation(a), first = make_formulation(a), second = make_formulation(a);
     run(*whole, 9);
     double const time = run(*first, 4);
@@ -133,9 +133,9 @@ TEST_P(AdjointMotion, IsTheSameOnEveryMachineAndThroughACheckpoint) {
     EXPECT_EQ(second->diagnose().stabilisation_loss, first->diagnose().stabilisation_loss);
     EXPECT_EQ(more(*second, "centred_energy"), more(*first, "centred_energy"));
     run(*second, 5, time);
-    EXPECT_EQ(whole_state(*whole), whole_state(*second)) << machine;
+    EXPECT_EQ(whole_state(*whole), whole_state(*second)) << backend;
     if (reference.empty()) reference = whole_state(*whole);
-    EXPECT_LT(largest_difference(whole_state(*whole), reference), 1e-9 * largest(reference)) << machine;
+    EXPECT_LT(largest_difference(whole_state(*whole), reference), 1e-9 * largest(reference)) << backend;
   }
 }
 
@@ -201,15 +201,15 @@ TEST(AdjointLoads, CloseTheBooksOfEnergy) {
     auto const f = make_formulation(a);
     double const dt = f->stable_time_step();
     f->step(0, dt);
-    auto const books = [&] {
+    auto const energy_totals = [&] {
       Diagnostics const d = f->diagnose();
       return more(*f, "centred_energy") + d.stabilisation_loss - d.external_work;
     };
-    double const before = books();
+    double const before = energy_totals();
     for (int k = 1; k < 25; ++k) f->step(k * dt, dt);
     EXPECT_GT(std::fabs(f->diagnose().external_work), 1e-3 * f->diagnose().total_energy());
     // Speeds that change within a step are those of its ends in the forces, too: nothing is lost.
-    EXPECT_NEAR(books(), before, 1e-12 * f->diagnose().total_energy()) << D;
+    EXPECT_NEAR(energy_totals(), before, 1e-12 * f->diagnose().total_energy()) << D;
   }
 }
 

@@ -8,13 +8,13 @@ namespace {
 using namespace testing;
 
 /// A body that is held at one side, pulled at another and falls.
-Assembly loaded_body(int dimension, int n, double jitter, std::string const& machine) {
+Assembly loaded_body(int dimension, int n, double jitter, std::string const& backend) {
   Assembly a = busy_body(dimension, n, jitter);
   support(a, {true, true, true}, [](Point const& X) { return X[0] < 1e-9; });
   Load& pull = load(a, {"1e3*t", "200", "0"}, [](Point const& X) { return X[0] > 1 - 1e-9; });
   pull.normal = std::array<double, 3>{1, 0, 0};
   load(a, {"0", "-9.81", "0"}, everywhere);
-  a.machine = machine;
+  a.backend = backend;
   return a;
 }
 
@@ -42,9 +42,9 @@ void PrintTo(Setting const& s, std::ostream* out) {
 
 class EveryTaylorMachine : public ::testing::TestWithParam<Setting> {
  protected:
-  Assembly assembly(std::string const& machine) const {
+  Assembly assembly(std::string const& backend) const {
     auto const& s = GetParam();
-    Assembly a = loaded_body(s.dimension, s.dimension == 1 ? 21 : s.dimension == 2 ? 9 : 5, s.jitter, machine);
+    Assembly a = loaded_body(s.dimension, s.dimension == 1 ? 21 : s.dimension == 2 ? 9 : 5, s.jitter, backend);
     choose(a, "configuration", s.configuration);
     choose(a, "virtual_particles", s.cells);
     return a;
@@ -52,11 +52,11 @@ class EveryTaylorMachine : public ::testing::TestWithParam<Setting> {
 };
 
 TEST_P(EveryTaylorMachine, GivesTheSameMotion) {
-  if (machines().size() < 2) GTEST_SKIP() << "this build has one machine";
-  Values const reference = end_state(assembly(machines().back()), 15);
+  if (backends().size() < 2) GTEST_SKIP() << "this build has one machine";
+  Values const reference = end_state(assembly(backends().back()), 15);
   ASSERT_GT(largest(reference), 0.3);
-  for (auto const& machine : machines())
-    EXPECT_LT(largest_difference(end_state(assembly(machine), 15), reference), 1e-10) << machine;
+  for (auto const& backend : backends())
+    EXPECT_LT(largest_difference(end_state(assembly(backend), 15), reference), 1e-10) << backend;
 }
 
 std::vector<Setting> settings() {
@@ -78,11 +78,11 @@ INSTANTIATE_TEST_SUITE_P(All, EveryTaylorMachine, ::testing::ValuesIn(settings()
 class TaylorThreads : public ::testing::TestWithParam<std::tuple<int, std::string>> {};
 
 TEST_P(TaylorThreads, DoNotChangeABit) {
-  auto const& [D, machine] = GetParam();
+  auto const& [D, backend] = GetParam();
   int const n = D == 1 ? 2201 : D == 2 ? 52 : 15, steps = 2;
   Assembly a = assemble_taylor(unit_box(D, n));
   choose(a, "virtual_particles", D == 3 ? "lattice_cells" : "delaunay");
-  a.machine = machine;
+  a.backend = backend;
   a.cfl = 0.5;
   // A squeeze that changes lengths by 7.5 % in a step.
   double const rate = 0.15 * Moduli(D).speed() * (n - 1);
@@ -94,7 +94,7 @@ TEST_P(TaylorThreads, DoNotChangeABit) {
   for (int const threads : testing::thread_counts) {
     Threads const keep(threads);
     auto const f = make_formulation(a);
-    ASSERT_EQ(exec::team(Range{0, static_cast<Index>(a.particles.X.size())}), threads);
+    ASSERT_EQ(exec::team_size(Range{0, static_cast<Index>(a.particles.X.size())}), threads);
     run(*f, steps);
     EXPECT_GE(more(*f, "list_updates"), 1);
     EXPECT_FALSE(f->failure().has_value());
@@ -104,15 +104,15 @@ TEST_P(TaylorThreads, DoNotChangeABit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, TaylorThreads,
-                         ::testing::Combine(::testing::Values(1, 2, 3), ::testing::ValuesIn(machines())));
+                         ::testing::Combine(::testing::Values(1, 2, 3), ::testing::ValuesIn(backends())));
 
 TEST(TaylorMachines, AreListedBestFirstAndFoundByName) {
   std::vector<std::string> names;
-  for (auto name = taylor_sph::machine_names(); *name != nullptr; ++name) names.push_back(*name);
-  EXPECT_EQ(names, machines()) << "the same as those of the other formulations";
-  EXPECT_EQ(taylor_sph::find_machine("auto")->name, names.front());
-  for (auto const& name : names) EXPECT_EQ(taylor_sph::find_machine(name.c_str())->name, name);
-  EXPECT_EQ(taylor_sph::find_machine("abacus"), nullptr);
+  for (auto name = taylor_sph::backend_names(); *name != nullptr; ++name) names.push_back(*name);
+  EXPECT_EQ(names, backends()) << "the same as those of the other formulations";
+  EXPECT_EQ(taylor_sph::find_backend("auto")->name, names.front());
+  for (auto const& name : names) EXPECT_EQ(taylor_sph::find_backend(name.c_str())->name, name);
+  EXPECT_EQ(taylor_sph::find_backend("abacus"), nullptr);
 }
 
 }  // namespace

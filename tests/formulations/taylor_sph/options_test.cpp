@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/taylor_sph/options.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "formulations/taylor_sph/taylor_bodies.hpp"
 
 namespace piola::taylor_sph {
@@ -83,7 +83,7 @@ TEST(TaylorOptions, OfAFixedBodyTakeTheLargestStepThatIsExact) {
 }
 
 TEST(TaylorOptions, FollowTheWordsThatAreGiven) {
-  EXPECT_EQ(options(2, {{"gradient", "printed"}}).form, GradientForm::printed);
+  EXPECT_EQ(options(2, {{"gradient", "printed"}}).form, GradientForm::as_published);
   EXPECT_EQ(options(2, {{"gradient", "linear_exact"}}).form, GradientForm::linear_exact);
   EXPECT_EQ(options(2, {{"kernel", "wendland_c2"}}).kernel, find_kernel("wendland_c2"));
   EXPECT_EQ(options(2, {{"kernel", "cubic_spline"}}).kernel, find_kernel("cubic_spline"));
@@ -164,9 +164,9 @@ TEST(TaylorSolver, RefusesMirrorsAndAnInitialDeformationGradient) {
 TEST(TaylorSolver, RefusesAMachineThatItDoesNotHaveAndNamesThoseItHas) {
   using namespace testing;
   Assembly a = assemble_taylor(unit_box(2, 5));
-  a.machine = "abacus";
+  a.backend = "abacus";
   std::string expected = "machine 'abacus' is unknown or not usable on this processor (usable: auto";
-  for (auto names = machine_names(); *names != nullptr; ++names) expected += std::string(", ") + *names;
+  for (auto names = backend_names(); *names != nullptr; ++names) expected += std::string(", ") + *names;
   EXPECT_EQ(refusal(a), expected + ")");
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/taylor_sph/solver.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "formulations/taylor_sph/taylor_bodies.hpp"
 #include <limits>
 
@@ -86,17 +86,17 @@ void expect_the_same_continuation(Assembly const& a, int before, int after) {
 class TaylorCheckpoint : public ::testing::TestWithParam<std::tuple<int, double, std::string>> {};
 
 TEST_P(TaylorCheckpoint, ContinuesWithTheSameBits) {
-  auto const& [D, jitter, machine] = GetParam();
+  auto const& [D, jitter, backend] = GetParam();
   Assembly a = busy_body(D, D == 1 ? 21 : D == 2 ? 8 : 5, jitter);
   support(a, {true, false, true}, [](Point const& X) { return X[0] < 1e-9; });
   load(a, {"1 + t", "0", "0"}, everywhere);
-  a.machine = machine;
+  a.backend = backend;
   expect_the_same_continuation(a, 4, 5);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, TaylorCheckpoint,
                          ::testing::Combine(::testing::Values(1, 2, 3), ::testing::Values(0.0, 0.2),
-                                            ::testing::ValuesIn(machines())));
+                                            ::testing::ValuesIn(backends())));
 
 /// Before each checkpoint and after it lists are made anew, so that the state of lists counts.
 TEST(TaylorCheckpoint, ContinuesWithTheSameBitsThroughNewLists) {
@@ -131,11 +131,11 @@ TEST(TaylorCheckpoint, IsInTheOrderOfIds) {
 
 TEST(TaylorCheckpoint, OfOneMachineContinuesOnAnother) {
   Assembly a = busy_body(3, 5);
-  a.machine = machines().front();
+  a.backend = backends().front();
   auto const first = make_formulation(a);
   run(*first, 5);
   SavedState s = saved(*first);
-  a.machine = machines().back();
+  a.backend = backends().back();
   auto const second = make_formulation(a);
   second->load(s);
   EXPECT_EQ(whole_state(*first), whole_state(*second));
@@ -216,7 +216,7 @@ TEST(TaylorTimeStep, EndsWhereASupportOrALoadDoes) {
   for (int k = 0; k < 3; ++k) time = run(*f, 1, time);
   EXPECT_NEAR(time, 0.0213, 1e-12);  // steps of at most 9 ms
   run(*f, 1, time);
-  EXPECT_NEAR(f->stable_time_step(), f->settled_time_step(), 0);
+  EXPECT_NEAR(f->stable_time_step(), f->steady_time_step(), 0);
 }
 
 // ---- failure
@@ -328,9 +328,9 @@ TEST(TaylorSolver, KnowsItsStagesMemoryAndCosts) {
   auto const f = make_formulation(assemble_taylor(unit_box(3, 7)));
   EXPECT_EQ(f->stages_per_step(), 2);
   EXPECT_GT(f->memory_bytes(), 343 * (3 + 3 + 6) * 8U);
-  ASSERT_EQ(f->costs().size(), 2u);
-  EXPECT_EQ(f->costs()[1].first, "neighbour_lists");
-  EXPECT_GT(f->costs()[1].second, 0);
+  ASSERT_EQ(f->timings().size(), 2u);
+  EXPECT_EQ(f->timings()[1].first, "neighbour_lists");
+  EXPECT_GT(f->timings()[1].second, 0);
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ void expect_linear_exact(std::uint32_t seed) {
     for (int a = 0; a < D; ++a) target[a] = random.in(-2, 2);
     auto const sources = lopsided<D>(random, target);
     auto const e = estimate_from<D, Kernel>(sources, target, 1, GradientForm::linear_exact);
-    auto const p = estimate_from<D, Kernel>(sources, target, 1, GradientForm::printed);
+    auto const p = estimate_from<D, Kernel>(sources, target, 1, GradientForm::as_published);
     for (int c = 0; c < Record<D>::fields; ++c) {
       EXPECT_NEAR(e.f[c], linear<D>(c, target), 1e-11);
       for (int a = 0; a < D; ++a) {
@@ -99,7 +99,7 @@ TEST(Estimate, OfAConstantHasNoGradient) {
   auto sources = lopsided<2>(random, target);
   for (auto& s : sources)
     for (double& f : s.f) f = 3;
-  for (auto const form : {GradientForm::linear_exact, GradientForm::printed}) {
+  for (auto const form : {GradientForm::linear_exact, GradientForm::as_published}) {
     auto const e = estimate_from<2>(sources, target, 1, form);
     for (int c = 0; c < Record<2>::fields; ++c) {
       EXPECT_NEAR(e.f[c], 3, 1e-13);
@@ -118,7 +118,7 @@ TEST(Estimate, OfBothFormsIsTheSameWhereTheCentroidIsTheTarget) {
       sources.push_back(s);
     }
   auto const e = estimate_from<2>(sources, {}, 0.6, GradientForm::linear_exact);
-  auto const p = estimate_from<2>(sources, {}, 0.6, GradientForm::printed);
+  auto const p = estimate_from<2>(sources, {}, 0.6, GradientForm::as_published);
   for (int c = 0; c < Record<2>::fields; ++c) {
     EXPECT_NEAR(e.f[c], p.f[c], 1e-15);
     double mean = 0, along_x = 0;

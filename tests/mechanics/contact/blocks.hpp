@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/mechanics/contact/system.hpp"
+#include "piola/mechanics/contact/surface_contact.hpp"
 #include "piola/setup/contact_surface.hpp"
 #include <cmath>
 #include <gtest/gtest.h>

@@ -11,10 +11,10 @@ using namespace testing;
 /// Two blocks with some motion; the points of the first half of the carriers rub.
 class Chatter : public ::testing::TestWithParam<int> {
  protected:
-  Chatter() : blocks_(GetParam(), 0.0), carriers_(blocks_.set, blocks_.surfaces) {
+  Chatter() : blocks_(GetParam(), 0.0), hosts_(blocks_.set, blocks_.surfaces) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> some(-1, 1);
-    for (auto const id : carriers_.ids()) {
+    for (auto const id : hosts_.ids()) {
       auto const& X = blocks_.set.X[static_cast<std::size_t>(id)];
       Vec<3> x{{X[0], X[1], X[2]}}, v;
       for (int c = 0; c < GetParam(); ++c) {
@@ -25,10 +25,10 @@ class Chatter : public ::testing::TestWithParam<int> {
       v_.push_back(v);
       inverse_masses_.push_back(1 / (1 + 0.5 * some(random)));
     }
-    heat_.resize(at(carriers_.count()));
+    heat_.resize(at(hosts_.count()));
     for (std::size_t k = 0; k < heat_.size() / 2; ++k) heat_[k] = 1e-3 * (1 + some(random));
   }
-  ChatterDamping damping(double share) const { return {carriers_, blocks_.surfaces, {share, share}, GetParam()}; }
+  ChatterDamping damping(double share) const { return {hosts_, blocks_.surfaces, {share, share}, GetParam()}; }
   ChatterDamping::State state(double dt) const { return {x_, v_, inverse_masses_, heat_, dt}; }
   /// Kinetic energy that the impulses take [J].
   double taken(ChatterDamping const& damping) const {
@@ -42,14 +42,14 @@ class Chatter : public ::testing::TestWithParam<int> {
   double heat() const { return std::accumulate(heat_.begin(), heat_.end(), 0.0); }
 
   Blocks blocks_;
-  Carriers carriers_;
+  HostParticles hosts_;
   std::vector<Vec<3>> x_, v_;
   std::vector<double> inverse_masses_, heat_;
 };
 
 TEST_P(Chatter, KeepsMomenta) {
   auto d = damping(1);
-  d.look(carriers_, state(1e-3));
+  d.look(hosts_, state(1e-3));
   Vec<3> sum, moment;
   double size = 0;
   for (Index const k : d.damped()) {
@@ -68,7 +68,7 @@ TEST_P(Chatter, KeepsMomenta) {
 TEST_P(Chatter, TakesAtMostItsShareOfTheHeat) {
   for (double const share : {0.01, 0.2}) {
     auto d = damping(share);
-    d.look(carriers_, state(1e-2));
+    d.look(hosts_, state(1e-2));
     EXPECT_LE(taken(d), share * heat());
     EXPECT_GE(taken(d), 0.5 * share * heat()) << "there is more to take than it may";
   }
@@ -78,7 +78,7 @@ TEST_P(Chatter, NeverFeedsEnergyHoweverLongTheStep) {
   for (double& h : heat_) h = 1e9;
   for (double const dt : {1e-5, 1e-2, 1e3}) {
     auto d = damping(1);
-    d.look(carriers_, state(dt));
+    d.look(hosts_, state(dt));
     double energy = 0;
     for (std::size_t k = 0; k < v_.size(); ++k) energy += 0.5 * square_of(v_[k]) / inverse_masses_[k];
     EXPECT_GT(taken(d), 0);
@@ -91,11 +91,11 @@ TEST_P(Chatter, LeavesRigidMotionAndWhatDoesNotRub) {
   auto const shaken = v_;
   for (std::size_t k = 0; k < v_.size(); ++k) v_[k] = Vec<3>{{5, -1, 0}} + cross(spin, x_[k]);
   auto d = damping(1);
-  d.look(carriers_, state(1e-2));
+  d.look(hosts_, state(1e-2));
   for (Index const k : d.damped()) EXPECT_LT(square_of(d.impulses()[at(k)]), 1e-24);
   v_ = shaken;
   for (double& h : heat_) h = 0;
-  d.look(carriers_, state(1e-2));
+  d.look(hosts_, state(1e-2));
   EXPECT_TRUE(d.damped().empty());
   EXPECT_FALSE(damping(0).any());
 }

@@ -89,7 +89,7 @@ TEST_P(OwnContact, RubsToo) {
 INSTANTIATE_TEST_SUITE_P(Contact, OwnContact, ::testing::Values(2, 3));
 
 /// Two legs of a U with a slit between them that is narrower than a bond is long.
-TEST(OwnNeighbours, DistanceGoesAlongTheBodyNotAcrossASlit) {
+TEST(SelfContactExclusions, DistanceGoesAlongTheBodyNotAcrossASlit) {
   ParticleSet set;
   set.dimension = 2;
   std::vector<std::array<double, 3>> X;
@@ -105,15 +105,15 @@ TEST(OwnNeighbours, DistanceGoesAlongTheBodyNotAcrossASlit) {
   set.X = X;
   set.bodies = {{.name = "U", .first = 0, .last = static_cast<std::int64_t>(X.size()), .spacing = {1, 1, 1}}};
   std::vector<Surface> const surfaces{surface};
-  Carriers const carriers(set, surfaces);
-  OwnNeighbours const near(set, 0, carriers, 1);
-  auto const carrier = [&](int i, int j) { return carriers.of(0, static_cast<std::size_t>(6 * j + i)); };
-  EXPECT_TRUE(near.hold(carrier(2, 9), carrier(2, 9)));
-  EXPECT_TRUE(near.hold(carrier(2, 9), carrier(2, 6)));
-  EXPECT_FALSE(near.hold(carrier(2, 9), carrier(2, 5))) << "four bonds away";
-  EXPECT_FALSE(near.hold(carrier(2, 9), carrier(3, 9))) << "across the slit";
-  EXPECT_TRUE(near.hold(carrier(2, 2), carrier(3, 2))) << "around its end";
-  EXPECT_TRUE(near.hold(carrier(2, 0), carrier(3, 0)));
+  HostParticles const hosts(set, surfaces);
+  SelfContactExclusions const near(set, 0, hosts, 1);
+  auto const host = [&](int i, int j) { return hosts.of(0, static_cast<std::size_t>(6 * j + i)); };
+  EXPECT_TRUE(near.hold(host(2, 9), host(2, 9)));
+  EXPECT_TRUE(near.hold(host(2, 9), host(2, 6)));
+  EXPECT_FALSE(near.hold(host(2, 9), host(2, 5))) << "four bonds away";
+  EXPECT_FALSE(near.hold(host(2, 9), host(3, 9))) << "across the slit";
+  EXPECT_TRUE(near.hold(host(2, 2), host(3, 2))) << "around its end";
+  EXPECT_TRUE(near.hold(host(2, 0), host(3, 0)));
 }
 
 TEST(FrictionLaw, FallsFromRestToSlidingAndHasALimit) {
@@ -176,7 +176,7 @@ TEST(AtParticles, TellPressureGapWayAndHeat) {
   double heat = 0, deepest = 0, most = 0, pushed = 0;
   PairRule const rule = pair_rule(0.5, 2e6, 1, 5e6, 0.7);
   double const layer_pressure = -2 * layer(-0.05, rule.stiffness, rule.length).slope;
-  for (System::AtParticle const& p : system.at_particles()) {
+  for (System::ParticleContactState const& p : system.at_particles()) {
     auto const& X = blocks.set.X[static_cast<std::size_t>(p.id)];
     bool const upper = p.id >= blocks.set.bodies[1].first, face = upper ? X[1] < 3.4 : X[1] > 2.4;
     if (!face) {

@@ -84,7 +84,7 @@ TEST_P(FreeShapes, ForceAndMomentAreTheSlopesOfTheEnergy) {
   s.axis = tilt * s.axis;
   RigidSurface const kept = s;
   system.evaluate(x, 1e-3);
-  auto const load = system.on_rigid(0);
+  auto const load = system.resultant_on_rigid(0);
   double const size = std::sqrt(dot(load.force, load.force));
   ASSERT_GT(size, 0);
   auto const energy = [&] {
@@ -205,7 +205,7 @@ TEST(RigidMotion, DrivenShapesTurnAsPrescribed) {
   EXPECT_NEAR(surfaces[0].axis[0], std::cos(1.0), 1e-13);
   EXPECT_NEAR(surfaces[0].axis[1], std::sin(1.0), 1e-13);
   EXPECT_NEAR(surfaces[0].angular_velocity[2], 2, 1e-13);
-  EXPECT_NEAR(motion.closing_step(surfaces), 0.1, 1e-12) << "a fifth of a radian";
+  EXPECT_NEAR(motion.contact_time_step(surfaces), 0.1, 1e-12) << "a fifth of a radian";
   EXPECT_NEAR(motion.states(surfaces)[0].turn[2], 1, 1e-13);
 }
 

@@ -207,9 +207,9 @@ TEST(RigidPairs, ClosingShortensTheStepBeforeTheyMeet) {
   RigidPairs pairs(scene.shapes, 3, {1000, 0.1, {}});
   pairs.start(scene.now);
   EXPECT_EQ(pairs.totals().energy, 0);
-  EXPECT_TRUE(std::isinf(pairs.closing_step(scene.now)));
+  EXPECT_TRUE(std::isinf(pairs.contact_time_step(scene.now)));
   scene.now[0].velocity = {{0, 0, -10}};
-  EXPECT_NEAR(pairs.closing_step(scene.now), 0.051, 1e-12) << "half the gap and a tenth of a spacing";
+  EXPECT_NEAR(pairs.contact_time_step(scene.now), 0.051, 1e-12) << "half the gap and a tenth of a spacing";
 }
 
 TEST(RigidPairs, AFreeCylinderOnItsEndStaysThere) {

@@ -24,15 +24,15 @@ RigidSurface plate(int dimension) {
 struct OnPlate {
   Blocks blocks;
   int dimension;
-  Carriers carriers;
+  HostParticles hosts;
   std::vector<Vec<3>> x;
   std::vector<RigidSurface> rigids;
   Ties ties;
 
   OnPlate(int D, double strength, double below = 0)
-      : blocks(D, 0), dimension(D), carriers(blocks.set, blocks.surfaces), rigids{plate(D)} {
+      : blocks(D, 0), dimension(D), hosts(blocks.set, blocks.surfaces), rigids{plate(D)} {
     rigids[0].centre[D - 1] -= below;
-    for (auto const id : carriers.ids()) {
+    for (auto const id : hosts.ids()) {
       auto const& X = blocks.set.X[static_cast<std::size_t>(id)];
       x.push_back({{X[0], X[1], X[2]}});
     }
@@ -41,7 +41,7 @@ struct OnPlate {
     rule.strength = strength;
     rule.toughness = 0.2 * strength;  // fails at 0.4 m
     rule.shear_weight = 0.7;
-    ties = Ties({rule}, blocks.set, blocks.surfaces, carriers, x, rigids);
+    ties = Ties({rule}, blocks.set, blocks.surfaces, hosts, x, rigids);
   }
   void move_plate() {
     RigidSurface& box = rigids[0];
@@ -52,7 +52,7 @@ struct OnPlate {
   /// What it stores and what has become heat.
   double energy(std::vector<Vec<3>> const& at, std::vector<RigidSurface> const& shapes) const {
     Ties copy = ties;
-    copy.evaluate(carriers, at, shapes);
+    copy.evaluate(hosts, at, shapes);
     return copy.totals().energy + copy.totals().heat;
   }
 };
@@ -87,7 +87,7 @@ TEST_P(RigidTiesIn, ForcesAreTheSlopesOfTheEnergy) {
     OnPlate held(D, strength);
     distort(held.x, D, 0.1);
     held.move_plate();
-    held.ties.evaluate(held.carriers, held.x, held.rigids);
+    held.ties.evaluate(held.hosts, held.x, held.rigids);
     constexpr double h = 1e-6;
     double largest = 0;
     for (Vec<3> const& f : held.ties.forces()) largest = std::max(largest, std::sqrt(dot(f, f)));
@@ -107,7 +107,7 @@ TEST_P(RigidTiesIn, ForcesAreTheSlopesOfTheEnergy) {
         double const by_place = slope([&](auto& x, auto&, double way) { x[i][c] += way; });
         EXPECT_NEAR(held.ties.forces()[i][c], -by_place, 1e-5 * largest);
       }
-    auto const& on = held.ties.on_rigid(0);
+    auto const& on = held.ties.resultant_on_rigid(0);
     for (int c = 0; c < D; ++c)
       EXPECT_NEAR(on.force[c], -slope([&](auto&, auto& s, double way) { s[0].centre[c] += way; }),
                   1e-5 * (largest + std::fabs(on.force[c])));
@@ -126,8 +126,8 @@ TEST_P(RigidTiesIn, MomentaAreKept) {
     OnPlate held(D, strength, 0.2);
     distort(held.x, D, 0.1);
     held.move_plate();
-    held.ties.evaluate(held.carriers, held.x, held.rigids);
-    auto const& on = held.ties.on_rigid(0);
+    held.ties.evaluate(held.hosts, held.x, held.rigids);
+    auto const& on = held.ties.resultant_on_rigid(0);
     Vec<3> force = on.force, moment = on.moment + cross(held.rigids[0].centre, on.force);
     double size = std::sqrt(dot(force, force));
     for (std::size_t k = 0; k < held.x.size(); ++k) {
@@ -138,7 +138,7 @@ TEST_P(RigidTiesIn, MomentaAreKept) {
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(force[c], 0, 1e-15 * size);
       EXPECT_NEAR(moment[c], 0, 5e-15 * size) << "arms of 5 m";
-      EXPECT_NEAR(held.ties.on_first(0).force[c], -on.force[c], 1e-15 * size);
+      EXPECT_NEAR(held.ties.resultant_on_first(0).force[c], -on.force[c], 1e-15 * size);
     }
   }
 }
@@ -163,8 +163,8 @@ TEST_P(RigidTiesIn, FrequencyIsABoundOfBodyAndShape) {
       for (std::size_t k = 0; k < x.size(); ++k) x[k] = x[k] + h * u[k];
       shapes[0].centre = shapes[0].centre + h * way;
       shapes[0].turn = matrix_of(turn_by(h * angle)) * shapes[0].turn;
-      held.ties.evaluate(held.carriers, x, shapes);
-      auto const& on = held.ties.on_rigid(0);
+      held.ties.evaluate(held.hosts, x, shapes);
+      auto const& on = held.ties.resultant_on_rigid(0);
       double const before = mass * (dot(way, way) + dot(angle, angle));
       double sum = before, product = dot(way, on.force) + dot(angle, on.moment);
       for (std::size_t k = 0; k < u.size(); ++k) {

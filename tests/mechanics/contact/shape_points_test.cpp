@@ -142,7 +142,7 @@ TEST_P(OfNarrowShapes, PushTheBody) {
     Pressed p(D, tool);
     p.system.evaluate(p.x, 1e-3);
     EXPECT_GT(p.system.totals().energy, 0);
-    EXPECT_GT(p.system.on_rigid(0).force[D - 1], 0) << "the body pushes it out";
+    EXPECT_GT(p.system.resultant_on_rigid(0).force[D - 1], 0) << "the body pushes it out";
   }
 }
 
@@ -155,7 +155,7 @@ TEST_P(OfNarrowShapes, PushWithTheSlopesOfTheEnergy) {
     p.system.rigid(0).centre[D - 1] -= 0.15;
     expect_slopes(p.system, p.x, D);
     p.system.evaluate(p.x, 1e-3);
-    Between const load = p.system.on_rigid(0);
+    ForceMoment const load = p.system.resultant_on_rigid(0);
     double const size = std::sqrt(dot(load.force, load.force));
     ASSERT_GT(size, 0);
     RigidSurface const at = p.system.rigid(0);
@@ -193,7 +193,7 @@ TEST_P(OfNarrowShapes, KeepMomenta) {
       p.system.start(p.x);
       for (Vec<3>& y : p.x) y[0] += 0.02;
       p.system.evaluate(p.x, 1e-3);
-      Between const load = p.system.on_rigid(0);
+      ForceMoment const load = p.system.resultant_on_rigid(0);
       Vec<3> force = load.force, moment = load.moment + cross(p.system.rigid(0).centre, load.force);
       double const size = std::sqrt(dot(force, force));
       ASSERT_GT(size, 0);
@@ -247,7 +247,7 @@ struct OnPlate {
     auto moved = x;
     for (Vec<3>& y : moved) y[D - 1] -= depth;
     system.evaluate(moved, 1e-3);
-    return -system.on_rigid(0).force[D - 1];
+    return -system.resultant_on_rigid(0).force[D - 1];
   }
 };
 

@@ -41,15 +41,15 @@ struct Stack {
 
 struct Held {
   Stack stack;
-  Carriers carriers;
+  HostParticles hosts;
   std::vector<Vec<3>> x;
   Ties ties;
 
   Held(Stack from, TieRule rule)
-      : stack(std::move(from)), carriers(stack.set, stack.surfaces), x(places()), ties(bound(std::move(rule))) {}
+      : stack(std::move(from)), hosts(stack.set, stack.surfaces), x(places()), ties(bound(std::move(rule))) {}
   std::vector<Vec<3>> places() const {
     std::vector<Vec<3>> all;
-    for (auto const id : carriers.ids()) {
+    for (auto const id : hosts.ids()) {
       auto const& X = stack.set.X[static_cast<std::size_t>(id)];
       all.push_back({{X[0], X[1], X[2]}});
     }
@@ -57,10 +57,10 @@ struct Held {
   }
   Ties bound(TieRule rule) const {
     rule.bodies = {0, 1};
-    return {{std::move(rule)}, stack.set, stack.surfaces, carriers, x};
+    return {{std::move(rule)}, stack.set, stack.surfaces, hosts, x};
   }
   double energy(std::vector<Vec<3>> const& at) {
-    ties.evaluate(carriers, at);
+    ties.evaluate(hosts, at);
     return ties.totals().energy;
   }
 };
@@ -151,9 +151,9 @@ TEST_P(TiesIn, ForcesAreTheSlopesOfTheEnergy) {
         if (rule.fails()) {
           Ties up = kept, down = kept;
           moved[i][c] += 2 * h;
-          up.evaluate(held.carriers, moved);
+          up.evaluate(held.hosts, moved);
           moved[i][c] -= 2 * h;
-          down.evaluate(held.carriers, moved);
+          down.evaluate(held.hosts, moved);
           high += up.totals().heat;
           low += down.totals().heat;
         }
@@ -178,14 +178,14 @@ std::vector<double> tied_at_both_ends(int D, std::uint32_t seed) {
   rule.where = Expression("X < 4 || X > 12");
   Held held(std::move(plates), rule);
   distort(held.x, D, 0.1);
-  held.ties.evaluate(held.carriers, held.x);
+  held.ties.evaluate(held.hosts, held.x);
   Ties::Found const& found = held.ties.found()[0];
   Ties::Totals const& totals = held.ties.totals();
   std::vector<double> all{totals.energy, totals.heat, totals.failed, found.area, found.left_area};
   auto const put = [&](Vec<3> const& a) { all.insert(all.end(), a.c, a.c + 3); };
   for (Vec<3> const& f : held.ties.forces()) put(f);
-  put(held.ties.on_first(0).force);
-  put(held.ties.on_first(0).moment);
+  put(held.ties.resultant_on_first(0).force);
+  put(held.ties.resultant_on_first(0).moment);
   return all;
 }
 
@@ -202,20 +202,20 @@ TEST_P(TiesIn, MomentaAreKept) {
     Held held(Stack(D, 0.2, 0.1), rule);
     distort(held.x, D, 0.3);
     held.energy(held.x);
-    Vec<3> force, moment, on_first;
+    Vec<3> force, moment, resultant_on_first;
     double size = 0;
     for (std::size_t k = 0; k < held.x.size(); ++k) {
       Vec<3> const& f = held.ties.forces()[k];
       force = force + f;
       moment = moment + cross(held.x[k], f);
       size += std::sqrt(dot(f, f));
-      if (held.carriers.ids()[k] < held.stack.set.bodies[1].first) on_first = on_first + f;
+      if (held.hosts.ids()[k] < held.stack.set.bodies[1].first) resultant_on_first = resultant_on_first + f;
     }
     ASSERT_GT(size, 0);
     for (int c = 0; c < 3; ++c) {
       EXPECT_NEAR(force[c], 0, 1e-15 * size);
       EXPECT_NEAR(moment[c], 0, 3e-15 * size) << "arms of 5 m";
-      EXPECT_NEAR(held.ties.on_first(0).force[c], on_first[c], 1e-14 * size);
+      EXPECT_NEAR(held.ties.resultant_on_first(0).force[c], resultant_on_first[c], 1e-14 * size);
     }
   }
 }
@@ -228,10 +228,9 @@ TEST_P(TiesIn, TheMomentIsThatOfTheForces) {
   double size = 0;
   for (std::size_t k = 0; k < held.x.size(); ++k) {
     size += std::sqrt(dot(held.ties.forces()[k], held.ties.forces()[k]));
-    if (held.carriers.ids()[k] < held.stack.set.bodies[1].first)
-      moment = moment + cross(held.x[k], held.ties.forces()[k]);
+    if (held.hosts.ids()[k] < held.stack.set.bodies[1].first) moment = moment + cross(held.x[k], held.ties.forces()[k]);
   }
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(held.ties.on_first(0).moment[c], moment[c], 1e-14 * size);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(held.ties.resultant_on_first(0).moment[c], moment[c], 1e-14 * size);
 }
 
 // What holds is released, point by point, and takes its toughness.
@@ -242,13 +241,13 @@ TEST_P(TiesIn, PulledApartTheyTakeTheirToughness) {
   std::size_t released = 0;
   constexpr int steps = 4000;
   for (int k = 0; k <= steps; ++k) {
-    held.ties.evaluate(held.carriers, held.x);
-    double const now = held.ties.on_first(0).force[D - 1];
+    held.ties.evaluate(held.hosts, held.x);
+    double const now = held.ties.resultant_on_first(0).force[D - 1];
     if (k > 0) work += 0.5 * (last + now) * 0.5 / steps;
     last = now;
     released += held.ties.released().size();
     for (std::size_t i = 0; i < held.x.size(); ++i)
-      if (held.carriers.ids()[i] >= held.stack.set.bodies[1].first) held.x[i][D - 1] += 0.5 / steps;
+      if (held.hosts.ids()[i] >= held.stack.set.bodies[1].first) held.x[i][D - 1] += 0.5 / steps;
   }
   double const area = held.ties.found()[0].area;
   EXPECT_NEAR(work / (2e4 * area), 1, 1e-5);
@@ -273,7 +272,7 @@ TEST_P(TiesIn, FrequencyIsABound) {
   for (int round = 0; round < 300; ++round) {
     auto x = held.x;
     for (std::size_t k = 0; k < v.size(); ++k) x[k][0] += v[k];
-    held.ties.evaluate(held.carriers, x);
+    held.ties.evaluate(held.hosts, x);
     double before = 0, after = 0;
     for (std::size_t k = 0; k < v.size(); ++k) {
       double const next = -held.ties.forces()[k][0] * inverse[k];
@@ -296,7 +295,7 @@ TEST_P(TiesIn, RestoredStateGoesOnBitForBitWithAnyNumberOfThreads) {
     Held whole(Stack(D), brittle()), resumed(Stack(D), brittle());
     auto const move = [&](std::vector<Vec<3>>& x) {
       for (std::size_t k = 0; k < x.size(); ++k)
-        if (whole.carriers.ids()[k] >= whole.stack.set.bodies[1].first) x[k][D - 1] += 0.01 * (1 + 0.3 * x[k][0]);
+        if (whole.hosts.ids()[k] >= whole.stack.set.bodies[1].first) x[k][D - 1] += 0.01 * (1 + 0.3 * x[k][0]);
     };
     for (int k = 0; k < 12; ++k) {
       whole.energy(whole.x);

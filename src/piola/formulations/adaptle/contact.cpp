@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/contact.hpp"
+#include "piola/domain/communicator.hpp"
 #include "piola/formulations/adaptle/contact_sweep.hpp"
-#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -31,16 +31,17 @@ double number_of(double h, double dp, double n) {
 /// U of one pair.
 template <int D>
 double potential(System const& s, Index i, Index j, double r) {
-  ContactPair const& pair = s.contact.pair[s.body_of[i] * s.bodies + s.body_of[j]];
+  KernelContactPair const& pair = s.contact.pair[s.body_of[i] * s.bodies + s.body_of[j]];
   if (s.contact.law == 2) return r < pair.dp ? 0.5 * pair.eps * std::pow(1 - r / pair.dp, 2) : 0;
   Kernel<D> const kernel(pair.h);
-  double const eps =
-      s.contact.law == 1 ? pair.eps : s.contact.printed * value_at(s.field.volume, i) * value_at(s.field.volume, j);
+  double const eps = s.contact.law == 1
+                         ? pair.eps
+                         : s.contact.as_published * value_at(s.field.volume, i) * value_at(s.field.volume, j);
   return eps * std::pow(kernel(r) / kernel(pair.dp), pair.exponent);
 }
 
 template <int D>
-void add_rigid_contacts(System const& s, Index i, exec::ExactSums<1>& sum) {
+void add_rigid_contacts(System const& s, Index i, exec::ReproducibleSums<1>& sum) {
   for (int k = 0; k < s.rigids; ++k) {
     double normal[3];
     BodyConstants const& b = s.body[s.body_of[i]];
@@ -52,8 +53,8 @@ void add_rigid_contacts(System const& s, Index i, exec::ExactSums<1>& sum) {
 
 /// Sums the energies of the pairs with counts(pair, i, j), at the positions at half time, which ghosts have, too.
 template <int D, class Counts>
-exec::ExactSums<1> energy_of_pairs(System const& s, Counts const& counts) {
-  exec::ExactSums<1> sum;
+exec::ReproducibleSums<1> energy_of_pairs(System const& s, Counts const& counts) {
+  exec::ReproducibleSums<1> sum;
   for (Index t = 0; t < s.contact.targets; ++t) {
     Index const i = s.spatial.slot[s.contact.target[t]];
     for (Index k = 0; k < s.contact.length[t]; ++k) {
@@ -70,9 +71,9 @@ exec::ExactSums<1> energy_of_pairs(System const& s, Counts const& counts) {
 }
 
 template <int D>
-exec::ExactSums<1> energy_of_contacts(System const& s) {
-  exec::ExactSums<1> sum =
-      energy_of_pairs<D>(s, [&](ContactPair const& pair, Index i, Index j) { return s.contact.acts(pair, i, j); });
+exec::ReproducibleSums<1> energy_of_contacts(System const& s) {
+  exec::ReproducibleSums<1> sum = energy_of_pairs<D>(
+      s, [&](KernelContactPair const& pair, Index i, Index j) { return s.contact.acts(pair, i, j); });
   for (Range const& own : std::span(s.part, static_cast<std::size_t>(s.bodies)))
     for (Index i = own.first; i < own.last; ++i) add_rigid_contacts<D>(s, i, sum);
   return sum;
@@ -112,29 +113,30 @@ double contact_exponent(BodyConstants const& a, BodyConstants const& b, double v
 }
 
 double contact_energy(System const& system) {
-  exec::ExactSums<1> sum = system.dimension == 2 ? energy_of_contacts<2>(system) : energy_of_contacts<3>(system);
-  if (system.shared) ranks::add(sum);
+  exec::ReproducibleSums<1> sum = system.dimension == 2 ? energy_of_contacts<2>(system) : energy_of_contacts<3>(system);
+  if (system.shared) comm::allreduce_sum(sum);
   return sum.value();
 }
 
 double opened_energy(System const& system, std::vector<std::uint8_t> const& lost_before) {
-  auto const opened = [&](ContactPair const& pair, Index i, Index j) {
+  auto const opened = [&](KernelContactPair const& pair, Index i, Index j) {
     auto const before = [&](Index k) { return lost_before[static_cast<std::size_t>(k)] != 0; };
     return pair.surfaces && system.contact.acts(pair, i, j) && !before(i) && !before(j);
   };
-  exec::ExactSums<1> sum =
+  exec::ReproducibleSums<1> sum =
       system.dimension == 2 ? energy_of_pairs<2>(system, opened) : energy_of_pairs<3>(system, opened);
-  if (system.shared) ranks::add(sum);
+  if (system.shared) comm::allreduce_sum(sum);
   return sum.value();
 }
 
-std::vector<ContactPair> contact_pairs(int dimension, ContactRule const& rule, std::vector<BodyConstants> const& bodies,
-                                       std::vector<std::array<double, 3>> const& mean_velocity) {
-  std::vector<ContactPair> pairs(bodies.size() * bodies.size());
+std::vector<KernelContactPair> contact_pairs(int dimension, ContactRule const& rule,
+                                             std::vector<BodyConstants> const& bodies,
+                                             std::vector<std::array<double, 3>> const& mean_velocity) {
+  std::vector<KernelContactPair> pairs(bodies.size() * bodies.size());
   for (std::size_t a = 0; a < bodies.size(); ++a)
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       if (a == b) continue;
-      ContactPair& p = pairs[a * bodies.size() + b];
+      KernelContactPair& p = pairs[a * bodies.size() + b];
       p.h = 0.5 * (bodies[a].h + bodies[b].h);
       p.dp = 0.5 * (bodies[a].spacing + bodies[b].spacing);
       double square = 0;
@@ -155,7 +157,7 @@ std::vector<ContactPair> contact_pairs(int dimension, ContactRule const& rule, s
   return pairs;
 }
 
-bool mark_surface_contact(Assembly const& assembly, std::vector<ContactPair>& pairs) {
+bool mark_surface_contact(Assembly const& assembly, std::vector<KernelContactPair>& pairs) {
   auto const& bodies = assembly.particles.bodies;
   bool any = false;
   for (std::size_t a = 0; a < bodies.size(); ++a)
@@ -166,7 +168,8 @@ bool mark_surface_contact(Assembly const& assembly, std::vector<ContactPair>& pa
   return any;
 }
 
-void leave_to_surfaces(std::vector<contact::TieRule> const& ties, std::size_t bodies, std::vector<ContactPair>& pairs) {
+void exclude_tied_pairs(std::vector<contact::TieRule> const& ties, std::size_t bodies,
+                        std::vector<KernelContactPair>& pairs) {
   constexpr double out_of_sight = 1e-9;
   for (contact::TieRule const& tie : ties)
     for (std::size_t const pair : {tie.bodies[0] * bodies + tie.bodies[1], tie.bodies[1] * bodies + tie.bodies[0]}) {

@@ -23,15 +23,17 @@ double reference_pressure(BodyConstants const& a, BodyConstants const& b, double
 double contact_exponent(BodyConstants const& a, BodyConstants const& b, double v);
 
 /// Stiffness and exponent of every pair of bodies, [body][body]. mean_velocity: of each body at the start [m/s].
-std::vector<ContactPair> contact_pairs(int dimension, ContactRule const& rule, std::vector<BodyConstants> const& bodies,
-                                       std::vector<std::array<double, 3>> const& mean_velocity);
+std::vector<KernelContactPair> contact_pairs(int dimension, ContactRule const& rule,
+                                             std::vector<BodyConstants> const& bodies,
+                                             std::vector<std::array<double, 3>> const& mean_velocity);
 
 /// Switches kernel contact of tied bodies off: they have surface contact after the tie has failed.
-void leave_to_surfaces(std::vector<contact::TieRule> const& ties, std::size_t bodies, std::vector<ContactPair>& pairs);
+void exclude_tied_pairs(std::vector<contact::TieRule> const& ties, std::size_t bodies,
+                        std::vector<KernelContactPair>& pairs);
 
 /// Marks the pairs of bodies that have surface contact first: those of the case's contact_pairs, to which reading the
 /// case adds total-Lagrangian bodies that touch at the start. Returns whether there are any.
-bool mark_surface_contact(Assembly const& assembly, std::vector<ContactPair>& pairs);
+bool mark_surface_contact(Assembly const& assembly, std::vector<KernelContactPair>& pairs);
 
 /// Potential energy of kernel contact [J] that has appeared because surfaces were lost since `lost_before`
 /// (LostSurfaces::by_slot). The lists must be those of the last step. Collective.

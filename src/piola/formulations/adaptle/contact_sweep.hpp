@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/adaptle/components.hpp"
+#include "piola/formulations/adaptle/component_views.hpp"
 #include "piola/formulations/adaptle/records.hpp"
 
 /// Contact between bodies, and with rigid shapes: central, frictionless repulsion.
-namespace piola::adaptle::inline PIOLA_MACHINE {
+namespace piola::adaptle::inline PIOLA_BACKEND {
 
 /// Force and stiffness of one pair at distance r.
 struct ContactForce {
@@ -15,7 +15,7 @@ struct ContactForce {
 
 /// F = -dU/dr, U = eps (W(r)/W(dp))^n: eqs. (15), (16) with constant coefficient.
 template <int D>
-PIOLA_FN ContactForce kernel_contact(ContactPair const& p, double r) {
+PIOLA_FN ContactForce kernel_contact(KernelContactPair const& p, double r) {
   Kernel<D> const kernel(p.h);
   double s, W;
   kernel.evaluate(r * r, s, W);
@@ -28,7 +28,7 @@ PIOLA_FN ContactForce kernel_contact(ContactPair const& p, double r) {
 }
 
 /// F = eps (dp - r) / dp^2 below dp: a linear spring with the stiffness of the material.
-PIOLA_FN ContactForce linear_contact(ContactPair const& p, double r) {
+PIOLA_FN ContactForce linear_contact(KernelContactPair const& p, double r) {
   if (!(r < p.dp)) return {};
   return {p.eps * (p.dp - r) / (p.dp * p.dp), p.eps / (p.dp * p.dp), 1 - r / p.dp};
 }
@@ -48,16 +48,16 @@ struct ContactSweep {
   }
 
  private:
-  PIOLA_FN ContactForce force_of(ContactPair const& pair, Index i, Index j, double r) const {
+  PIOLA_FN ContactForce force_of(KernelContactPair const& pair, Index i, Index j, double r) const {
     if (table.law == 2) return linear_contact(pair, r);
     if (table.law == 1) return kernel_contact<D>(pair, r);
-    ContactPair printed = pair;
-    printed.eps = table.printed * volume_half.at(i) * volume_half.at(j);
-    return kernel_contact<D>(printed, r);
+    KernelContactPair as_published = pair;
+    as_published.eps = table.as_published * volume_half.at(i) * volume_half.at(j);
+    return kernel_contact<D>(as_published, r);
   }
 
   /// Factor by which the law is steeper than for n = 4, for which steps are set.
-  PIOLA_FN double sharpness(ContactPair const& pair) const {
+  PIOLA_FN double sharpness(KernelContactPair const& pair) const {
     return table.law != 2 && pair.exponent > 4 ? pair.exponent / 4 : 1;
   }
 
@@ -73,7 +73,7 @@ struct ContactSweep {
     Index const* const row = table.list + static_cast<std::ptrdiff_t>(t) * table.capacity;
     for (Index k = 0; k < table.length[t]; ++k) {
       Index const j = slot[row[k]];
-      ContactPair const& pair = table.pair[body_of[i] * bodies + body_of[j]];
+      KernelContactPair const& pair = table.pair[body_of[i] * bodies + body_of[j]];
       if (!table.acts(pair, i, j)) continue;
       double square = 0;
       for (int c = 0; c < D; ++c) {
@@ -100,7 +100,7 @@ struct ContactSweep {
 
 /// Distance of a point from the surface of a rigid shape, negative inside, and the outward normal there.
 template <int D>
-PIOLA_FN double distance_to(RigidPlace const& shape, double const* x, double* normal) {
+PIOLA_FN double distance_to(RigidPoseAtHalfTime const& shape, double const* x, double* normal) {
   double r[3]{}, along = 0;
   for (int c = 0; c < D; ++c) {
     r[c] = x[c] - shape.centre[c];
@@ -164,7 +164,7 @@ PIOLA_FN double distance_to(RigidPlace const& shape, double const* x, double* no
 /// dp^(D-2) (dp/2 - d).
 template <int D>
 struct RigidSweep {
-  RigidPlace const* shape;
+  RigidPoseAtHalfTime const* shape;
   int shapes;
   double scale;
   BodyConstants const* body;
@@ -179,12 +179,12 @@ struct RigidSweep {
     for (int c = 0; c < 6 * shapes; ++c) of_block[c] = 0;
     for (Index i = block.first; i < block.last; ++i) {
       power_on_bodies[i] = 0;
-      for (int k = 0; k < shapes; ++k) push(i, shape[k], of_block + std::ptrdiff_t{6} * k);
+      for (int k = 0; k < shapes; ++k) add_velocities(i, shape[k], of_block + std::ptrdiff_t{6} * k);
     }
   }
 
  private:
-  PIOLA_FN void push(Index i, RigidPlace const& s, double* sum) const {
+  PIOLA_FN void add_velocities(Index i, RigidPoseAtHalfTime const& s, double* sum) const {
     double normal[3];
     BodyConstants const& b = body[body_of[i]];
     double const stand_off = 0.5 * b.spacing, place[3]{x.at(i), x.at(i, 1), x.at(i, 2)},

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Total-Lagrangian particles that become Eulerian, or fail.
+#include "piola/domain/communicator.hpp"
 #include "piola/formulations/adaptle/contact.hpp"
 #include "piola/formulations/adaptle/finish_pass.hpp"
 #include "piola/formulations/adaptle/particles.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
-#include "piola/parallel/ranks.hpp"
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -21,7 +21,7 @@ double strain_of(int dimension, Mat<3> const& F, SymMat<3> const& stress, BodyCo
 }  // namespace
 
 /// Evaluates convert_when; returns whether a particle of any rank is to convert by it.
-bool Particles::wishes_by_formula() {
+bool Particles::requests_by_formula() {
   double any_wish = 0;
   bool asked = false;
   for (std::size_t k = 0; k < body_.size(); ++k) {
@@ -34,7 +34,7 @@ bool Particles::wishes_by_formula() {
       Components const F(read(system_.field.F));
       Fields const& f = fields_;
       for (Index i = own_[k].first; i < own_[k].last; ++i) {
-        if (f.phi.at(i) > 0 || wish_[at(i)] == 1) continue;
+        if (f.phi.at(i) > 0 || conversion_requests_[at(i)] == 1) continue;
         double const rho = f.rho.at(i), p = point.pressure<double>(law, i, rho, f.energy.at(i) / f.mass.at(i));
         SymMat<3> const S = point.S.symmetric<double>(i);
         SymMat<3> stress = S;
@@ -47,13 +47,13 @@ bool Particles::wishes_by_formula() {
                                 f.temperature.at(i),
                                 strain_of(system_.dimension, F.matrix<double>(i), stress, b),
                                 rho};
-        if (formula(X(i), books_.time, values) == 0) continue;
-        wish_[at(i)] = 1;
+        if (formula(X(i), energy_totals_.time, values) == 0) continue;
+        conversion_requests_[at(i)] = 1;
         any_wish = 1;
       }
     });
   }
-  if (exchanges_ && asked) ranks::take_largest(any_wish);
+  if (exchanges_ && asked) comm::allreduce_max(any_wish);
   return any_wish > 0;
 }
 
@@ -68,7 +68,7 @@ class Marks {
   bool has(Index i, Kind kind) const { return (bits_[place(i, kind) / 64] & bit(i, kind)) != 0; }
   /// Combines the marks of all ranks. Collective.
   void share() {
-    ranks::combine(std::span(bits_), [](void const* other, void* mine) {
+    comm::allreduce(std::span(bits_), [](void const* other, void* mine) {
       *static_cast<std::uint64_t*>(mine) |= *static_cast<std::uint64_t const*>(other);
     });
   }
@@ -89,11 +89,11 @@ void Particles::convert(double dt) {
   Marks marks(system_.particles);
   for (std::size_t k = 0; k < body_.size(); ++k)
     for (Index i = own_[k].first; i < own_[k].last; ++i) {
-      if (wish_[at(i)] == 0) continue;
-      bool const alone = wish_[at(i)] == 2;
+      if (conversion_requests_[at(i)] == 0) continue;
+      bool const alone = conversion_requests_[at(i)] == 2;
       marks.set(i, alone && !body_[k].deletes ? Marks::by_guard : Marks::changes);
       if (!alone && !body_[k].deletes)
-        material_.each_neighbour(i, options_.bodies[k].conversion_radius * body_[k].material_h, fields_,
+        material_.each_neighbour(i, options_.bodies[k].conversion_radius * body_[k].reference_h, fields_,
                                  [&](Index j) { marks.set(j, Marks::changes); });
     }
   marks.share();
@@ -107,14 +107,14 @@ void Particles::convert(double dt) {
     else if (changes || marks.has(i, Marks::by_guard))
       make_eulerian(i, dt, !changes, sums);
   }
-  if (exchanges_) ranks::add(sums);
-  books_.converted_mass += sums.value(0);
-  books_.energy_change += sums.value(1);
-  books_.momentum_change += sums.value(2);
+  if (exchanges_) comm::allreduce_sum(sums);
+  energy_totals_.converted_mass += sums.value(0);
+  energy_totals_.energy_change += sums.value(1);
+  energy_totals_.momentum_change += sums.value(2);
   if (lost_.count() > count_before) {
     double const opened = opened_energy(system_, lost_before);
-    books_.contact_energy += opened;
-    books_.energy_change += opened;
+    energy_totals_.contact_energy += opened;
+    energy_totals_.energy_change += opened;
   }
   choose_material();
 }
@@ -122,17 +122,17 @@ void Particles::convert(double dt) {
 /// Marks the particle and all that have it as a reference neighbour, because their deformation gradient now depends on
 /// the positions of an Eulerian particle.
 void Particles::lose_surface(Index slot) {
-  lost_.lose(set_, order_, slot, 2 * body_[at(body_of_[at(slot)])].material_h);
+  lost_.lose(set_, order_, slot, 2 * body_[at(body_of_[at(slot)])].reference_h);
 }
 
 /// x, v, S, energy and history stay. rho follows from J, which belongs to half time, carried on to the end of the step.
 void Particles::make_eulerian(Index i, double dt, bool by_guard, ConversionSums& sums) {
   Fields& f = fields_;
   if (f.phi.at(i) == 1) return;
-  books_.converted += 1;
-  books_.by_guard += by_guard ? 1 : 0;
+  energy_totals_.converted += 1;
+  energy_totals_.by_guard += by_guard ? 1 : 0;
   if (lost_.used()) lose_surface(i);
-  if (!is_own(i)) {  // remote particle: only its kernel type is stored
+  if (!is_local(i)) {  // remote particle: only its kernel type is stored
     f.phi.at(i) = 1;
     return;
   }
@@ -162,10 +162,10 @@ std::array<double, 3> Particles::momentum_of(Index i) const {
 /// Bears no stress any more and leaves the sums of its neighbours; its deformation stays as it is.
 void Particles::remove(Index i) {
   Fields& f = fields_;
-  if (!(f.alive.at(i) > 0)) return;
-  f.alive.at(i) = 0;
-  books_.deleted += 1;
-  if (!is_own(i)) return;
+  if (!(f.active.at(i) > 0)) return;
+  f.active.at(i) = 0;
+  energy_totals_.deleted += 1;
+  if (!is_local(i)) return;
   for (int c = 0; c < 6; ++c) f.S.at(i, c) = f.S_rate.at(i, c) = 0;
   f.rho_rate.at(i) = f.energy_rate.at(i) = 0;
   if (f.holds(f.thickness_rate)) f.thickness_rate.at(i) = 0;

@@ -11,8 +11,8 @@ ParticleFields Fields::refs() const {
   std::tie(r.x, r.v, r.S, r.rho, r.energy) = std::tuple(f.x.ref(), f.v.ref(), f.S.ref(), f.rho.ref(), f.energy.ref());
   std::tie(r.plastic_strain, r.temperature, r.damage, r.plastic_work) =
       std::tuple(f.plastic_strain.ref(), f.temperature.ref(), f.damage.ref(), f.plastic_work.ref());
-  std::tie(r.thickness, r.thickness_half, r.viscosity, r.phi, r.alive, r.released, r.bulking) =
-      std::tuple(f.thickness.ref(), f.thickness_half.ref(), f.viscosity.ref(), f.phi.ref(), f.alive.ref(),
+  std::tie(r.thickness, r.thickness_half, r.viscosity, r.phi, r.active, r.released, r.bulking) =
+      std::tuple(f.thickness.ref(), f.thickness_half.ref(), f.viscosity.ref(), f.phi.ref(), f.active.ref(),
                  f.released.ref(), f.bulking.ref());
   std::tie(r.a, r.S_rate, r.rho_rate, r.energy_rate, r.thickness_rate, r.flow) = std::tuple(
       f.a.ref(), f.S_rate.ref(), f.rho_rate.ref(), f.energy_rate.ref(), f.thickness_rate.ref(), f.flow.ref());

@@ -24,7 +24,7 @@ struct Fields : FieldSet {
   ListedField thickness{*this, "Thickness", "1", 1, Role::evolved};
   ListedField viscosity{*this, "ViscosityFactor", "1", 1, Role::evolved};
   ListedField phi{*this, "KernelType", "1", 1, Role::evolved};
-  ListedField alive{*this, "Alive", "1", 1, Role::evolved};
+  ListedField active{*this, "Alive", "1", 1, Role::evolved};
   ListedField released{*this, "Released", "1", 1, Role::evolved};
   ListedField bulking{*this, "BulkingPressure", "Pa", 1, Role::evolved};
   // Rates of the last step, from which the next one predicts half time.
@@ -62,13 +62,13 @@ struct Fields : FieldSet {
   ListedField gradient_mean{*this, "KernelGradientMean", "1/m", 3, Role::reference};
 
   /// Optional features of a case that need additional fields.
-  struct Needs {
+  struct FieldRequirements {
     bool lagrangian = false;    ///< some particle has a deformation gradient
     bool published = false;     ///< material sums of set (2)
     bool plane_stress = false;  ///< variable thickness
     bool touching = false;      ///< several bodies, or rigid shapes
   };
-  bool wants(Field const& field, Needs const& needs) const {
+  bool wants(Field const& field, FieldRequirements const& needs) const {
     auto const is_one_of = [&](auto const&... some) { return (... || (&field == &some)); };
     if (is_one_of(F, F_rate, gap, heat, hourglass, compression, K, gradient_sum)) return needs.lagrangian;
     if (is_one_of(force)) return needs.lagrangian || needs.touching;
@@ -77,7 +77,7 @@ struct Fields : FieldSet {
     if (is_one_of(contact)) return needs.touching;
     return true;
   }
-  void allocate(Index particles, Needs const& needs) {
+  void allocate(Index particles, FieldRequirements const& needs) {
     constexpr Index guard = 16;  // loops read whole lanes
     each([&](Field& field) {
       if (wants(field, needs)) field.allocate(particles, guard);

@@ -5,7 +5,7 @@
 #include "piola/formulations/adaptle/step_limits.hpp"
 
 /// The second half of a step, from the sums at half time.
-namespace piola::adaptle::inline PIOLA_MACHINE {
+namespace piola::adaptle::inline PIOLA_BACKEND {
 
 /// Equivalent strain sqrt(2/3 E':E') of the Green-Lagrange strain, eq. (18); in two dimensions with the strain across
 /// the plane of plane stress, -nu/E (s_xx + s_yy), eq. (19).
@@ -34,10 +34,10 @@ struct StepEnd {
   bool damages;  ///< whether the law has damage
   double dt;
   MaterialTable material;
-  Components mass, S, rho, energy, v, a, phi, alive, damage, S_half, pressure, rho_half, c, F, gap, hourglass, contact;
+  Components mass, S, rho, energy, v, a, phi, active, damage, S_half, pressure, rho_half, c, F, gap, hourglass, contact;
   OwnComponents viscosity;
   double const* rigid_power;
-  std::int8_t* wish;
+  std::int8_t* conversion_request;
   FailureSlot* failure;
 
   StepEnd(System const& s, BodyConstants const& of, MaterialTable const& table, bool law_damages, double step)
@@ -53,7 +53,7 @@ struct StepEnd {
         v(read(s.field.v)),
         a(read(s.field.a)),
         phi(read(s.field.phi)),
-        alive(read(s.field.alive)),
+        active(read(s.field.active)),
         damage(read(s.field.damage)),
         S_half(read(s.field.S_half)),
         pressure(read(s.field.pressure)),
@@ -65,7 +65,7 @@ struct StepEnd {
         contact(read(s.field.contact)),
         viscosity(write(s.field.viscosity)),
         rigid_power(s.rigids > 0 ? s.rigid_power : nullptr),
-        wish(s.wish),
+        conversion_request(s.conversion_request),
         failure(s.failure) {}
 
   PIOLA_FN void operator()(Range block, BlockScratch const& scratch, double* m) const {
@@ -90,10 +90,10 @@ struct StepEnd {
       if (material.used && any(phi.scalar<Lanes>(i) < 1.0)) inverse_F = inverse(F.matrix<Lanes>(i));
       Lanes const step = limit(g, scratch, L, inverse_F);
       least = StepLimit::shorter(least, select(real, step, Lanes(1e300)));
-      m[BlockMeasures::wishes] += make_wishes(g, inverse_F);
+      m[BlockMeasures::conversion_requests] += make_wishes(g, inverse_F);
       check(g);
     });
-    for (int k = 0; k < BlockMeasures::sums; ++k) m[k] += sum_of(sums[k]);
+    for (int k = 0; k < BlockMeasures::sums; ++k) m[k] += parallel_sum(sums[k]);
     m[BlockMeasures::dt] = -largest_of(-least);
     m[BlockMeasures::overlap] = largest_of(overlap);
   }
@@ -126,8 +126,8 @@ struct StepEnd {
     bool const touching = contact.data != nullptr;
     Lanes const closing = touching ? contact.scalar<Lanes>(i, ContactSum::closing) : none;
     StepLimit const limits{
-        select(lagrangian && alive.scalar<Lanes>(i) > 0.0, StepLimit::stretch_squared(inverse_F), one),
-        select(lagrangian, Lanes(minimum(body.h, body.material_h)), Lanes(body.h)),
+        select(lagrangian && active.scalar<Lanes>(i) > 0.0, StepLimit::stretch_squared(inverse_F), one),
+        select(lagrangian, Lanes(minimum(body.h, body.reference_h)), Lanes(body.h)),
         c.scalar<Lanes>(i) + 0.6 * body.beta * scratch.compression_at(g),
         dot(acceleration, acceleration),
         mass.scalar<Lanes>(i),
@@ -140,21 +140,21 @@ struct StepEnd {
   PIOLA_FN int make_wishes(Group g, Mat<3, Lanes> const& inverse_F) const {
     Lanes const blend = phi.scalar<Lanes>(g.first);
     auto const blended = blend > 0.0 && blend < 1.0;
-    for (int l = 0; l < g.count; ++l) wish[g.first + l] = 0;
+    for (int l = 0; l < g.count; ++l) conversion_request[g.first + l] = 0;
     bool const may = body.adaptive || body.deletes;
     if (!may && !any(g.mask() && blended)) return 0;
     if (!material.used) return 0;
     Lanes r(0.0);
-    if (may) r = select(!(blend > 0.0) && alive.scalar<Lanes>(g.first) > 0.0, wish_of(g.first, inverse_F), r);
+    if (may) r = select(!(blend > 0.0) && active.scalar<Lanes>(g.first) > 0.0, wish_of(g.first, inverse_F), r);
     // Blended particles become fully Eulerian once the deformation gradient is unusable.
     Lanes const J = determinant(F.matrix<Lanes>(g.first));
     r = select(blended && !(J >= body.jacobian_min && J <= body.jacobian_max), Lanes(2.0), r);
-    int wishes = 0;
+    int conversion_requests = 0;
     for (int l = 0; l < g.count; ++l) {
-      wish[g.first + l] = static_cast<std::int8_t>(lane(r, l));
-      wishes += wish[g.first + l] != 0 ? 1 : 0;
+      conversion_request[g.first + l] = static_cast<std::int8_t>(lane(r, l));
+      conversion_requests += conversion_request[g.first + l] != 0 ? 1 : 0;
     }
-    return wishes;
+    return conversion_requests;
   }
 
   PIOLA_FN Lanes wish_of(Index i, Mat<3, Lanes> const& inverse_F) const {

@@ -3,7 +3,7 @@
 #include "piola/formulations/adaptle/material_sweep.hpp"
 
 /// Sums over reference neighbours, second sweep: terms with the stress and the deformation of neighbours.
-namespace piola::adaptle::inline PIOLA_MACHINE {
+namespace piola::adaptle::inline PIOLA_BACKEND {
 
 /// Stress forces with t_ab = V0_b (A_a s r - a_a W), F_a += sum_b t_ab - t_ba. The own part is made of the constants
 /// sum_b V0_b s r and sum_b V0_b W. A of total-Lagrangian particles carries their half of damping and springs, -(zeta
@@ -17,7 +17,7 @@ struct ForcePairs {
   static constexpr int Q = 0, heat = D, mu = D + 1, sums = published ? mu + 1 : D, extrema = published ? 1 : 0;
   static constexpr int first_component = published ? R::u : R::X, last_component = published ? R::inverse_J + 1 : R::a;
   double alpha, beta, h, rho0, c;
-  bool printed;  ///< interface: total-Lagrangian particles also receive the viscosity of Eulerian ones
+  bool as_published;  ///< interface: total-Lagrangian particles also receive the viscosity of Eulerian ones
 
   template <class V>
   struct Own {
@@ -30,13 +30,13 @@ struct ForcePairs {
     Own<V> own;
     if constexpr (published) {
       for (int k = 0; k < D; ++k) {
-        own.u[k] = load_own<V>(p, R::u + k);
-        own.v[k] = load_own<V>(p, R::v + k);
-        own.n[k] = load_own<V>(p, R::n + k);
+        own.u[k] = load_local<V>(p, R::u + k);
+        own.v[k] = load_local<V>(p, R::v + k);
+        own.n[k] = load_local<V>(p, R::n + k);
       }
-      for (int k = 0; k < D * D; ++k) own.N[k] = load_own<V>(p, R::N + k);
-      own.inverse_J = load_own<V>(p, R::inverse_J);
-      own.viscosity = load_own<V>(p, R::viscosity);
+      for (int k = 0; k < D * D; ++k) own.N[k] = load_local<V>(p, R::N + k);
+      own.inverse_J = load_local<V>(p, R::inverse_J);
+      own.viscosity = load_local<V>(p, R::viscosity);
       own.feels = any(own.viscosity > 0.0);
     }
     return own;
@@ -68,7 +68,7 @@ struct ForcePairs {
     Lanes const here(own.viscosity);
     Lanes closing = minimum(dot(w, x), Lanes(0.0));
     closing = select(g.s != 0.0, closing, Lanes(0.0));
-    closing = select((printed ? here : minimum(here, there)) < 0.0, Lanes(0.0), closing);
+    closing = select((as_published ? here : minimum(here, there)) < 0.0, Lanes(0.0), closing);
     if (!any(closing < 0.0)) return;
     auto const [speed, plain] =
         viscous_pair(alpha, beta, h, closing, dot(x, x), Lanes(2 * c), rho0 * (f(R::inverse_J) + own.inverse_J));
@@ -104,8 +104,8 @@ struct MaterialForces {
   MaterialTable table;
   Index particles;
   BodyConstants body;
-  bool printed;
-  Components phi, alive, volume, F, F_rate, gradient_sum, kernel_sum;
+  bool as_published;
+  Components phi, active, volume, F, F_rate, gradient_sum, kernel_sum;
   OwnComponents force, heat, compression;
   S pairs;
 
@@ -113,9 +113,9 @@ struct MaterialForces {
       : table(of_body),
         particles(s.particles),
         body(b),
-        printed(s.settings.interface_form == Interface::printed),
+        as_published(s.settings.interface_form == Interface::as_published),
         phi(read(s.field.phi)),
-        alive(read(s.field.alive)),
+        active(read(s.field.active)),
         volume(read(s.field.volume)),
         F(read(s.field.F)),
         F_rate(read(s.field.F_rate)),
@@ -124,12 +124,12 @@ struct MaterialForces {
         force(write(s.field.force)),
         heat(write(s.field.heat)),
         compression(write(s.field.compression)),
-        pairs{b.alpha, b.beta, b.material_h, b.rho0, b.c, printed} {}
+        pairs{b.alpha, b.beta, b.reference_h, b.rho0, b.c, as_published} {}
 
   /// Whether a particle takes part. In the published interface Eulerian particles receive forces from spatial sums
   /// alone.
   PIOLA_FN bool operator()(Index i) const {
-    return (table.part[i] & MaterialPart::target) != 0 && alive.at(i) > 0 && !(printed && phi.at(i) > 0);
+    return (table.part[i] & ReferenceRole::target) != 0 && active.at(i) > 0 && !(as_published && phi.at(i) > 0);
   }
 
   /// marks: lanes that take part.

@@ -4,7 +4,7 @@
 #include "piola/math/embedding.hpp"
 
 /// Stress at half time, and the data that neighbours read of it.
-namespace piola::adaptle::inline PIOLA_MACHINE {
+namespace piola::adaptle::inline PIOLA_BACKEND {
 
 /// Neighbour data derived from the stress at half time.
 template <int D, bool Corrected>
@@ -12,7 +12,7 @@ struct WriteRecords {
   BodyConstants body;
   Settings settings;
   HalfVolume half;
-  Components x, v_half, volume, viscosity, alive, S_half, pressure, rho_half, volume_half, F_rate, gap, K, N,
+  Components x, v_half, volume, viscosity, active, S_half, pressure, rho_half, volume_half, F_rate, gap, K, N,
       gradient_mean;
   SpatialTable spatial;    ///< records null: not needed
   MaterialTable material;  ///< records null: not needed
@@ -25,7 +25,7 @@ struct WriteRecords {
         v_half(read(s.field.v_half)),
         volume(read(s.field.volume)),
         viscosity(read(s.field.viscosity)),
-        alive(read(s.field.alive)),
+        active(read(s.field.active)),
         S_half(read(s.field.S_half)),
         pressure(read(s.field.pressure)),
         rho_half(read(s.field.rho_half)),
@@ -46,8 +46,8 @@ struct WriteRecords {
       SymMat<D, Lanes> stress;
       for (int a = 0; a < D; ++a)
         for (int b = a; b < D; ++b) stress(a, b) = a == b ? S(a, b) - p : S(a, b);
-      Here const here{half.phi.scalar<Lanes>(i),    alive.scalar<Lanes>(i), rho_half.scalar<Lanes>(i),
-                      volume_half.scalar<Lanes>(i), half.thickness_at(i),   stress};
+      Here const here{half.phi.scalar<Lanes>(i),    active.scalar<Lanes>(i), rho_half.scalar<Lanes>(i),
+                      volume_half.scalar<Lanes>(i), half.thickness_at(i),    stress};
       if (spatial.record != nullptr) write_spatial(g, here);
       if (!material.used) return;
       if (settings.published)
@@ -60,7 +60,7 @@ struct WriteRecords {
  private:
   /// A group of particles at half time.
   struct Here {
-    Lanes phi, alive, rho, volume, thickness;
+    Lanes phi, active, rho, volume, thickness;
     SymMat<D, Lanes> stress;
   };
   using R = MaterialRecord<D>;
@@ -83,7 +83,7 @@ struct WriteRecords {
   PIOLA_FN void write_material(Group g, Here const& here) const {
     Index const i = g.first;
     Lanes A[D * D];
-    auto const bears = here.phi < 1.0 && here.alive > 0.0;
+    auto const bears = here.phi < 1.0 && here.active > 0.0;
     if (any(bears)) {
       Mat<3, Lanes> const full = half.F.matrix<Lanes>(i);
       Mat<D, Lanes> const F = restrict_to<D>(full);
@@ -109,11 +109,11 @@ struct WriteRecords {
     Index const i = g.first;
     constexpr int first = R::A;
     Lanes r[R::inverse_J + 1 - first];
-    bool const printed = settings.interface_form == Interface::printed;
+    bool const as_published = settings.interface_form == Interface::as_published;
     // Eulerian particles of the published interface have a deformation gradient only near total-Lagrangian ones.
     auto bears = here.phi < 1.0;
-    if (printed) bears = bears || gap.scalar<Lanes>(i) >= 0.0;
-    bears = bears && here.alive > 0.0;
+    if (as_published) bears = bears || gap.scalar<Lanes>(i) >= 0.0;
+    bears = bears && here.active > 0.0;
     for (Lanes& value : r) value = Lanes(0.0);
     if (any(bears)) {
       Mat<3, Lanes> const full = half.F.matrix<Lanes>(i);
@@ -121,7 +121,7 @@ struct WriteRecords {
       // V sigma = V0 P F^T: with the current volume, which follows from an evolved density.
       Lanes const at_rest = determinant(full) * volume.scalar<Lanes>(i);
       Lanes const share =
-          printed ? at_rest : (1.0 - here.phi) * select(here.phi > 0.0, here.volume * here.thickness, at_rest);
+          as_published ? at_rest : (1.0 - here.phi) * select(here.phi > 0.0, here.volume * here.thickness, at_rest);
       for (int p = 0; p < D; ++p) {
         Lanes a(0.0), n(0.0);
         for (int q = 0; q < D; ++q) {
@@ -165,7 +165,7 @@ struct WriteRecords {
     r[Q::c] = Lanes(body.c);
     Lanes const factor = positive_factor(viscosity.scalar<Lanes>(i));
     r[Q::viscosity] = select(here.phi > 0.0, factor, -factor);
-    Lanes const weight = settings.interface_form == Interface::printed ? Lanes(1.0) : here.phi;
+    Lanes const weight = settings.interface_form == Interface::as_published ? Lanes(1.0) : here.phi;
     for (int c = 0; c < SymMat<D>::size; ++c) r[Q::M + c] = weight * here.volume * here.thickness * here.stress.c[c];
     store_records(to, 0, r);
     if (settings.artificial_stress) {

@@ -3,12 +3,12 @@
 #include "piola/formulations/adaptle/point_passes.hpp"
 
 /// From the sums at half time to velocities, positions, densities and energies at the end of a step.
-namespace piola::adaptle::inline PIOLA_MACHINE {
+namespace piola::adaptle::inline PIOLA_BACKEND {
 
 /// Sums and extrema over the particles of a block, in the order of Measures.
 struct BlockMeasures {
   static constexpr int contact = 0, hourglass = 1, rigid = 2, held = 3, load = 4, viscous = 5, artificial = 6, sums = 7,
-                       dt = 7, overlap = 8, wishes = 9, size = 10;
+                       dt = 7, overlap = 8, conversion_requests = 9, size = 10;
 };
 
 /// Data of the particles of a block that the parts of the end of a step share.
@@ -137,7 +137,7 @@ struct Kick {
 struct Balance {
   Settings settings;
   double dt, least_rho;
-  Components mass, phi, alive, S_half, pressure, rho_half, volume_half, thickness_half;
+  Components mass, phi, active, S_half, pressure, rho_half, volume_half, thickness_half;
   OwnComponents rho, rho_rate, thickness, thickness_rate, energy, energy_rate;
 
   Balance(System const& s, BodyConstants const& body, double step)
@@ -146,7 +146,7 @@ struct Balance {
         least_rho(body.least_rho),
         mass(read(s.field.mass)),
         phi(read(s.field.phi)),
-        alive(read(s.field.alive)),
+        active(read(s.field.active)),
         S_half(read(s.field.S_half)),
         pressure(read(s.field.pressure)),
         rho_half(read(s.field.rho_half)),
@@ -175,7 +175,7 @@ struct Balance {
       rho.put(g, next);
       rho_rate.put(g, rate);
       Lanes const width = thickness_of<Lanes>(i);
-      Lanes power = select(alive.scalar<Lanes>(i) > 0.0, stress_power(i, L) * width, Lanes(0.0)) + scratch.heat_at(g);
+      Lanes power = select(active.scalar<Lanes>(i) > 0.0, stress_power(i, L) * width, Lanes(0.0)) + scratch.heat_at(g);
       if (settings.viscosity == Viscosity::riemann) power = scratch.heat_at(g);
       energy_rate.put(g, power);
       energy.add(g, dt * power);

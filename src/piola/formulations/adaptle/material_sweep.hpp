@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/adaptle/material_pairs.hpp"
+#include "piola/formulations/adaptle/reference_pair_sums.hpp"
 
 /// Sums over reference neighbours, first sweep. docs/theory/adaptle.md, "Sums over reference neighbours".
-namespace piola::adaptle::inline PIOLA_MACHINE {
+namespace piola::adaptle::inline PIOLA_BACKEND {
 
 /// Constants of the pairs of one body.
 struct PairConstants {
@@ -14,7 +14,7 @@ struct PairConstants {
         rho0(b.rho0),
         alpha_c(b.alpha * b.c),
         beta(b.beta),
-        h(b.material_h),
+        h(b.reference_h),
         core(0.01 * h * h) {}
 };
 
@@ -46,10 +46,10 @@ struct DeformPairs {
   [[gnu::always_inline]] PIOLA_FN static Own<V> own_at(RecordPlace const& p) {
     Own<V> own;
     for (int c = 0; c < D; ++c) {
-      own.u[c] = load_own<V>(p, R::u + c);
-      own.v[c] = load_own<V>(p, R::v + c);
+      own.u[c] = load_local<V>(p, R::u + c);
+      own.v[c] = load_local<V>(p, R::v + c);
     }
-    own.viscosity = load_own<V>(p, R::viscosity);
+    own.viscosity = load_local<V>(p, R::viscosity);
     return own;
   }
 
@@ -115,7 +115,7 @@ struct Deform {
   using S = DeformPairs<D, Form>;
   MaterialTable table;
   Index particles;
-  Components phi, alive, volume, thickness_half, K, N, gradient_mean;
+  Components phi, active, volume, thickness_half, K, N, gradient_mean;
   OwnComponents F, F_rate, gap, force, heat, hourglass, compression;
   S pairs;
 
@@ -123,7 +123,7 @@ struct Deform {
       : table(of_body),
         particles(s.particles),
         phi(read(s.field.phi)),
-        alive(read(s.field.alive)),
+        active(read(s.field.active)),
         volume(read(s.field.volume)),
         thickness_half(read(s.field.thickness_half)),
         K(read(s.field.K)),
@@ -139,7 +139,9 @@ struct Deform {
         pairs{PairConstants(body)} {}
 
   /// Whether F of a particle is needed; deleted particles keep theirs.
-  PIOLA_FN bool operator()(Index i) const { return (table.part[i] & MaterialPart::kinematic) != 0 && alive.at(i) > 0; }
+  PIOLA_FN bool operator()(Index i) const {
+    return (table.part[i] & ReferenceRole::kinematic) != 0 && active.at(i) > 0;
+  }
 
   /// marks: selected lanes.
   PIOLA_FN void operator()(Group g, Lanes const& marks, Lanes const (&a)[S::sums]) const {
@@ -174,7 +176,7 @@ struct Deform {
                       maximum(compression.seen().template scalar<Lanes>(i), select(lagrangian, -a[S::mu], Lanes(0.0))));
     Lanes const own = select(lagrangian, Lanes(1.0), Lanes(0.0));
     for (int l = 0; l < g.count; ++l)
-      if (lane(own, l) > 0 && (table.part[i + l] & MaterialPart::mixed) != 0) leave_out_others(i + l);
+      if (lane(own, l) > 0 && (table.part[i + l] & ReferenceRole::mixed) != 0) leave_out_others(i + l);
   }
 
  private:

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/observe.hpp"
+#include "piola/domain/communicator.hpp"
 #include "piola/formulations/adaptle/point_fields.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
-#include "piola/formulations/observation.hpp"
-#include "piola/formulations/observed.hpp"
-#include "piola/parallel/ranks.hpp"
+#include "piola/formulations/common/diagnostics_sum.hpp"
+#include "piola/formulations/common/output_fields.hpp"
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -48,9 +48,9 @@ template <class F>
 void observe_each(Particles const& particles, F const& f) {
   System const& s = particles.system();
   Fields const& of = particles.fields();
-  PartFilled<int> const spatial = particles.spatial().neighbours_by_slot(s);
+  LazyZeroArray<int> const spatial = particles.spatial().neighbours_by_slot(s);
   auto const see = [&](Index i, double pressure) {
-    ObservedParticle p;
+    ParticleOutput p;
     p.id = static_cast<double>(particles.order().id(i));
     p.body = s.body_of[i];
     p.kernel_type = of.phi.at(i);
@@ -72,28 +72,28 @@ void observe_each(Particles const& particles, F const& f) {
 }
 
 /// Sums that are reduced over ranks, and columns of this formulation.
-struct OwnSums {
-  std::vector<exec::ExactSums<1>> internal;  ///< of each body [J]
-  exec::ExactSums<3> others;                 ///< plastic work [J]; how many are Eulerian, and have failed
-  double hottest = 0;                        ///< [K]
+struct LocalSums {
+  std::vector<exec::ReproducibleSums<1>> internal;  ///< of each body [J]
+  exec::ReproducibleSums<3> others;                 ///< plastic work [J]; how many are Eulerian, and have failed
+  double hottest = 0;                               ///< [K]
 
   /// But for the first. Collective.
   void share() {
-    ranks::add(others);
-    ranks::take_largest(hottest);
+    comm::allreduce_sum(others);
+    comm::allreduce_max(hottest);
   }
 };
 
 /// Sums over the particles of this rank of one body.
-void observe_body(Particles const& particles, ParticleSet const& set, int number, Observation& o, OwnSums& sums) {
+void observe_body(Particles const& particles, ParticleSet const& set, int number, DiagnosticsSum& o, LocalSums& sums) {
   System const& s = particles.system();
   Fields const& f = particles.fields();
   Body const& body = set.bodies[at(number)];
-  SharedLines* const lines = particles.lines(number);
+  LatticeLineHalo* const lines = particles.lines(number);
   double const rho0 = s.body[number].rho0;
   std::vector<double> pressures(lines != nullptr ? 0 : static_cast<std::size_t>(body.last - body.first));
-  exec::ExactSums<1>& internal = sums.internal.emplace_back();
-  o.open_body(body.name);
+  exec::ReproducibleSums<1>& internal = sums.internal.emplace_back();
+  o.begin_body(body.name);
   each_particle(s, number, [&](Index i, double pressure) {
     double const mass = f.mass.at(i), energy = f.energy.at(i);
     if (lines != nullptr)
@@ -104,7 +104,7 @@ void observe_body(Particles const& particles, ParticleSet const& set, int number
     o.add_state(rho0 / f.rho.at(i), pressure, f.volume.at(i));
     internal.add(&energy);
     double const others[]{mass / rho0 * f.plastic_work.at(i), f.phi.at(i) > 0 ? 1.0 : 0.0,
-                          f.damage.at(i) >= 1 || !(f.alive.at(i) > 0) ? 1.0 : 0.0};
+                          f.damage.at(i) >= 1 || !(f.active.at(i) > 0) ? 1.0 : 0.0};
     sums.others.add(others);
     sums.hottest = std::max(sums.hottest, f.temperature.at(i));
   });
@@ -116,62 +116,62 @@ void observe_body(Particles const& particles, ParticleSet const& set, int number
 
 }  // namespace
 
-std::vector<FieldInfo> observed_fields() { return field_infos(offered); }
+std::vector<FieldInfo> output_field_names() { return field_infos(offered); }
 
-void sample_own(Particles const& particles, std::string_view field, std::span<double> values) {
-  ObservedField const& found = find_observed(field, offered);
+void sample_local_slots(Particles const& particles, std::string_view field, std::span<double> values) {
+  OutputField const& found = find_output_field(field, offered);
   double* to = values.data();
-  observe_each(particles, [&](ObservedParticle const& p) {
+  observe_each(particles, [&](ParticleOutput const& p) {
     found.put(p, to);
     to += found.components;
   });
 }
 
 void sample(Particles const& particles, std::string_view field, std::span<double> values) {
-  ObservedField const& found = find_observed(field, offered);
-  if (!ranks::several()) return observe_each(particles, [&](ObservedParticle const& p) { put(found, p, values); });
+  OutputField const& found = find_output_field(field, offered);
+  if (!comm::is_parallel()) return observe_each(particles, [&](ParticleOutput const& p) { put(found, p, values); });
   auto const width = static_cast<std::size_t>(found.components);
-  std::vector<double> mine(particles.owned().count(ranks::own()) * width);
-  sample_own(particles, field, mine);
-  particles.owned().collect(width, std::move(mine), values);
+  std::vector<double> mine(particles.local_particles().count(comm::rank()) * width);
+  sample_local_slots(particles, field, mine);
+  particles.local_particles().collect(width, std::move(mine), values);
 }
 
 Diagnostics observe(Particles const& particles, ParticleSet const& set) {
-  Books const& books = particles.books();
-  Observation o;
-  OwnSums sums;
+  EnergyTotals const& energy_totals = particles.energy_totals();
+  DiagnosticsSum o;
+  LocalSums sums;
   for (int b = 0; b < particles.system().bodies; ++b) {
     observe_body(particles, set, b, o, sums);
-    if (ranks::several()) ranks::add(sums.internal.back());
+    if (comm::is_parallel()) comm::allreduce_sum(sums.internal.back());
     o.add_strain_energy(sums.internal.back().value());
   }
-  if (ranks::several()) {
+  if (comm::is_parallel()) {
     o.share();
     sums.share();
   }
   Diagnostics d = o.finish();
-  exec::ExactSums<1> all;
+  exec::ReproducibleSums<1> all;
   for (auto const& of_body : sums.internal) all.add(of_body);
   double const internal = all.value();
   d.actions = particles.actions().report();
-  d.strain_energy = internal + books.contact_energy + books.hourglass_energy;
-  d.external_work = books.external_work;
-  d.damping_loss = books.damping_loss;
+  d.strain_energy = internal + energy_totals.contact_energy + energy_totals.hourglass_energy;
+  d.external_work = energy_totals.external_work;
+  d.damping_loss = energy_totals.damping_loss;
   d.more = {{"internal_energy", internal},
-            {"contact_energy", books.contact_energy},
-            {"hourglass_energy", books.hourglass_energy},
+            {"contact_energy", energy_totals.contact_energy},
+            {"hourglass_energy", energy_totals.hourglass_energy},
             {"plastic_work", sums.others.value(0)},
-            {"viscous_loss", books.viscous_loss},
-            {"artificial_stress_work", books.artificial_work},
+            {"viscous_loss", energy_totals.viscous_loss},
+            {"artificial_stress_work", energy_totals.artificial_work},
             {"eulerian_particles", sums.others.value(1)},
-            {"converted_particles", books.converted},
-            {"guard_conversions", books.by_guard},
-            {"converted_mass", books.converted_mass},
-            {"conversion_energy_change", books.energy_change},
-            {"conversion_momentum_change", books.momentum_change},
+            {"converted_particles", energy_totals.converted},
+            {"guard_conversions", energy_totals.by_guard},
+            {"converted_mass", energy_totals.converted_mass},
+            {"conversion_energy_change", energy_totals.energy_change},
+            {"conversion_momentum_change", energy_totals.momentum_change},
             {"failed_particles", sums.others.value(2)},
-            {"deleted_particles", books.deleted},
-            {"contact_overlap", books.overlap},
+            {"deleted_particles", energy_totals.deleted},
+            {"contact_overlap", energy_totals.overlap},
             {"temperature_max", sums.hottest}};
   return d;
 }

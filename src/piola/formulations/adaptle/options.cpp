@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/options.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
-#include "piola/materials/solids.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -285,8 +285,8 @@ FormulationInfo info() {
                        diagnostics};
   info.mirrors = false;
   info.contact = true;
-  info.pushable = true;
-  info.on_ranks = info.observed_by_share = info.tells_of_space = true;
+  info.can_be_coupled = true;
+  info.on_ranks = info.observes_locally = info.has_spatial_halo = true;
   info.formulas = formulas;
   return info;
 }

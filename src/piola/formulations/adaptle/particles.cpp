@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/particles.hpp"
-#include "piola/exec/set_up_loop.hpp"
+#include "piola/domain/communicator.hpp"
+#include "piola/exec/host_loops.hpp"
 #include "piola/formulations/adaptle/contact.hpp"
 #include "piola/formulations/adaptle/records.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
-#include "piola/materials/solids.hpp"
-#include "piola/parallel/ranks.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -58,19 +58,19 @@ class Stopwatch {
 
 }  // namespace
 
-std::vector<double> Books::state() const {
+std::vector<double> EnergyTotals::state() const {
   return std::apply([](auto const&... value) { return std::vector<double>{value...}; }, listed(*this));
 }
 
-void Books::restore(std::span<double const> values) {
+void EnergyTotals::restore(std::span<double const> values) {
   std::size_t k = 0;
   std::apply([&](auto&... value) { ((value = values[k++]), ...); }, listed(*this));
 }
 
-Particles::Particles(Assembly const& assembly, Options const& options, Machine const& machine)
+Particles::Particles(Assembly const& assembly, Options const& options, Backend const& backend)
     : options_(options),
       order_(assembly.particles),
-      machine_(&machine),
+      backend_(&backend),
       supports_(assembly.supports),
       loads_(assembly.loads),
       actions_(assembly.supports, assembly.loads, assembly.rigid_shapes),
@@ -79,24 +79,24 @@ Particles::Particles(Assembly const& assembly, Options const& options, Machine c
       set_(assembly.particles) {
   system_.dimension = assembly.particles.dimension;
   system_.settings = options_.settings;
-  system_.shared = ranks::several();
+  system_.shared = comm::is_parallel();
   set_bodies(assembly);
   set_contact(assembly);
   allocate(assembly);
   set_descriptions();
-  std::vector<Shares> equal;
+  std::vector<Partition> equal;
   for (BodyConstants const& b : body_) equal.emplace_back(Range{b.first, b.last});
-  for (Shares& cut : equal)
-    if (assembly.only_known) cut = Shares(cut.whole(), {0, 0});  // all is of a rank that there is not
+  for (Partition& cut : equal)
+    if (assembly.for_estimate_only) cut = Partition(cut.whole(), {0, 0});  // all is of a rank that there is not
   take(std::move(equal));
   set_particles(assembly);
   set_boundaries();
   double dt = std::numeric_limits<double>::infinity();
   for (auto const& b : body_)
     with_solid(b.material, [&](auto const& law) {
-      dt = std::min(dt, options_.settings.cfl * std::min(b.h, b.material_h) / law.p_wave_speed());
+      dt = std::min(dt, options_.settings.cfl * std::min(b.h, b.reference_h) / law.p_wave_speed());
     });
-  books_.next_dt = dt;
+  energy_totals_.next_dt = dt;
   start();
 }
 
@@ -106,15 +106,15 @@ void Particles::start() {
   prepare_supports(0);
   prepare_loads(0);
   prepare_rigid(0, 0);
-  make_lists(exchanges_ ? exchanges_->before_lists(system_) : SpatialLists::Others{});
-  books_.contact_energy = contact_energy(system_);
+  make_lists(exchanges_ ? exchanges_->before_lists(system_) : SpatialLists::RemoteParticles{});
+  energy_totals_.contact_energy = contact_energy(system_);
   // A pressure that acts for one step is an impulse of the step that waves allow.
   for (BodyOptions const& o : options_.bodies)
     if (o.initial_pressure && !o.initial_pressure_lasts) return;
-  machine_->predict(system_, 0);
+  backend_->predict(system_, 0);
   if (exchanges_) exchanges_->after_prediction(system_);
   sweep(0);
-  books_.next_dt = std::min(books_.next_dt, machine_->finish(system_, 0).dt);
+  energy_totals_.next_dt = std::min(energy_totals_.next_dt, backend_->finish(system_, 0).dt);
   seconds_ = {};
   balance_.busy() = 0;
 }
@@ -133,7 +133,7 @@ void Particles::set_bodies(Assembly const& assembly) {
     b.h = o.smoothing_length * b.spacing;
     double const reach = set.dimension == 2 ? std::numbers::pi * std::pow(2 * o.smoothing_length, 2)
                                             : 4 * std::numbers::pi / 3 * std::pow(2 * o.smoothing_length, 3);
-    b.material_h = o.material_smoothing_length * b.spacing;
+    b.reference_h = o.material_smoothing_length * b.spacing;
     b.alpha = o.alpha;
     b.beta = o.beta;
     b.artificial_stress = o.artificial_stress;
@@ -179,20 +179,20 @@ void Particles::set_contact(Assembly const& assembly) {
     for (std::size_t c = 0; c < 3; ++c) {
       Index const first = body_[b].first, n = body_[b].last - first;
       auto const& velocity = assembly.initial_velocity;
-      mean[b][c] = exec_host::sum_of(n, [&](Index k) { return velocity[at(first + k)][c]; }) / n;
+      mean[b][c] = exec_host::parallel_sum(n, [&](Index k) { return velocity[at(first + k)][c]; }) / n;
     }
   contact_pairs_ = contact_pairs(system_.dimension, assembly.contact, body_, mean);
-  leave_to_surfaces(assembly.ties, body_.size(), contact_pairs_);
+  exclude_tied_pairs(assembly.ties, body_.size(), contact_pairs_);
   if (mark_surface_contact(assembly, contact_pairs_)) lost_ = LostSurfaces(set_);
   system_.contact.lost = lost_.by_slot().data();
   system_.contact.pair = contact_pairs_.data();
-  system_.contact.printed = assembly.contact.stiffness;
+  system_.contact.as_published = assembly.contact.stiffness;
   system_.contact.scale = assembly.contact.scale;
   using Law = ContactRule::Law;
-  system_.contact.law = assembly.contact.law == Law::kernel    ? 1
-                        : assembly.contact.law == Law::linear  ? 2
-                        : assembly.contact.law == Law::printed ? 3
-                                                               : 0;
+  system_.contact.law = assembly.contact.law == Law::kernel         ? 1
+                        : assembly.contact.law == Law::linear       ? 2
+                        : assembly.contact.law == Law::as_published ? 3
+                                                                    : 0;
 }
 
 /// Arrays have the length of the whole run; pages are allocated on first write. Every rank writes phi and alive of all
@@ -200,7 +200,7 @@ void Particles::set_contact(Assembly const& assembly) {
 void Particles::allocate(Assembly const& assembly) {
   auto const n = static_cast<std::size_t>(assembly.particles.size());
   System& s = system_;
-  Fields::Needs needs;
+  Fields::FieldRequirements needs;
   needs.lagrangian = std::any_of(options_.bodies.begin(), options_.bodies.end(),
                                  [](BodyOptions const& o) { return o.description != Description::eulerian; });
   needs.published = options_.settings.published;
@@ -209,9 +209,9 @@ void Particles::allocate(Assembly const& assembly) {
   fields_.allocate(static_cast<Index>(n), needs);
   for (std::size_t b = 0; b < body_.size(); ++b)
     body_of_.insert(body_of_.end(), at(body_[b].last - body_[b].first), static_cast<int>(b));
-  wish_ = PartFilled<std::int8_t>(n);
-  if (options_.settings.corrected) correction_ = PartFilled<Correction>(n);
-  position_ = PartFilled<double>(3 * n);
+  conversion_requests_ = LazyZeroArray<std::int8_t>(n);
+  if (options_.settings.corrected) correction_ = LazyZeroArray<Correction>(n);
+  position_ = LazyZeroArray<double>(3 * n);
   s.bodies = static_cast<int>(body_.size());
   s.particles = static_cast<Index>(n);
   s.body = body_.data();
@@ -219,9 +219,9 @@ void Particles::allocate(Assembly const& assembly) {
   s.body_of = body_of_.data();
   s.field = fields_.refs();
   s.correction = correction_.data();
-  s.wish = wish_.data();
+  s.conversion_request = conversion_requests_.data();
   s.position = position_.data();
-  for (Index i = 0; i < s.particles; ++i) fields_.alive.at(i) = 1;
+  for (Index i = 0; i < s.particles; ++i) fields_.active.at(i) = 1;
   s.spatial.stride = s.dimension == 2 ? spatial_stride<2>(s.settings) : spatial_stride<3>(s.settings);
   partial_.resize(16 * (n / 64 + 2));
   s.partial = partial_.data();
@@ -241,7 +241,8 @@ void Particles::set_descriptions() {
       if (o.description == Description::patch && !inside) outside.push_back(i);
     }
     double const width = o.blend * body_[k].spacing;
-    if (o.description != Description::patch || width == 0 || options_.settings.interface_form == Interface::printed)
+    if (o.description != Description::patch || width == 0 ||
+        options_.settings.interface_form == Interface::as_published)
       continue;
     for (Index i = body_[k].first; i < body_[k].last; ++i) {
       if (fields_.phi.at(i) == 0) continue;
@@ -269,14 +270,14 @@ void Particles::set_reference() {
     for (Index i = own_[b].first; i < own_[b].last; ++i) {
       set_point(i);
       fields_.mass.at(i) = body_[b].rho0 * set_.volume[order_.id(i)];
-      bool const deforms = fields_.holds(fields_.F) && fields_.alive.at(i) > 0;  // deleted particles keep theirs
+      bool const deforms = fields_.holds(fields_.F) && fields_.active.at(i) > 0;  // deleted particles keep theirs
       for (int c = 0; c < 9 && deforms; ++c) fields_.F.at(i, c) = c % 4 == 0 ? 1 : 0;
     }
   set_point(order_.slot(0));  // where cells of space begin
   if (s.contact.law == 3)     // data of both sides for the potential of the published law
     for (Index i = 0; i < s.particles; ++i) set_point(i);
   if (!lagrangian_ && !material_.built()) return;
-  material_.build(set_, order_, body_, own_, fields_, options_.settings, machine_->lanes);
+  material_.build(set_, order_, body_, own_, fields_, options_.settings, backend_->lanes);
   if (!material_.needs_records()) return;
   using Flat = MaterialRecord<2>;
   using Deep = MaterialRecord<3>;
@@ -296,33 +297,33 @@ void Particles::choose_material() {
   system_.eulerians = static_cast<Index>(std::count(eulerian_.begin(), eulerian_.end(), std::uint8_t{1}));
   lagrangian_ = any_of([&](Index i) { return fields_.phi.at(i) < 1; });
   if (!material_.built()) return;
-  material_.choose(fields_, options_.settings.interface_form == Interface::printed);
+  material_.choose(fields_, options_.settings.interface_form == Interface::as_published);
   material_.put_into(system_.material);
   system_.material.used = lagrangian_;
 }
 
 void Particles::set_factors() {
-  factors_.build(body_, options_.bodies, own_, set_, order_, books_.time);
+  factors_.build(body_, options_.bodies, own_, set_, order_, energy_totals_.time);
   system_.own = factors_.view();
 }
 
 void Particles::set_boundaries() {
   std::size_t const n = at(system_.particles);
   if (!supports_.empty()) {
-    held_ = PartFilled<std::int8_t>(3 * n);
-    held_velocity_ = PartFilled<double>(3 * n);
-    holder_ = PartFilled<std::size_t>(3 * n);
-    reaction_ = PartFilled<double>(3 * n);
+    held_ = LazyZeroArray<std::int8_t>(3 * n);
+    held_velocity_ = LazyZeroArray<double>(3 * n);
+    holder_ = LazyZeroArray<std::size_t>(3 * n);
+    reaction_ = LazyZeroArray<double>(3 * n);
     system_.reaction = reaction_.data();
     system_.held = held_.data();
     system_.held_velocity = held_velocity_.data();
   }
   if (!loads_.empty()) {
-    load_ = PartFilled<double>(3 * n);
+    load_ = LazyZeroArray<double>(3 * n);
     system_.load = load_.data();
   }
   if (shapes_.empty()) return;
-  rigid_power_ = PartFilled<double>(n + 16);  // loops read whole lanes
+  rigid_power_ = LazyZeroArray<double>(n + 16);  // loops read whole lanes
   rigid_.resize(shapes_.size());
   system_.rigid = rigid_.data();
   system_.rigids = static_cast<int>(rigid_.size());
@@ -344,7 +345,7 @@ void Particles::prepare_supports(double time) {
     if (has_ended(support.until, time)) continue;
     for (auto const id : support.particles)
       for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c) {
-        if (!support.fix[c] || !is_own(order_.slot(id))) continue;
+        if (!support.fix[c] || !is_local(order_.slot(id))) continue;
         std::size_t const k = 3 * at(order_.slot(id)) + c;
         held_[k] = 1;
         holder_[k] = number;
@@ -361,7 +362,7 @@ void Particles::prepare_loads(double time) {
     if (has_ended(load.until, time)) continue;
     for (std::size_t k = 0; k < load.particles.size(); ++k) {
       Index const slot = order_.slot(load.particles[k]);
-      if (!is_own(slot)) continue;
+      if (!is_local(slot)) continue;
       auto const a = load_on(load, k, X(slot), time);
       for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c) load_[3 * at(slot) + c] += a[c];
     }
@@ -372,7 +373,7 @@ void Particles::prepare_loads(double time) {
 void Particles::prepare_rigid(double time, double dt) {
   for (std::size_t k = 0; k < shapes_.size(); ++k) {
     RigidShape const& from = shapes_[k];
-    RigidPlace& to = rigid_[k];
+    RigidPoseAtHalfTime& to = rigid_[k];
     to.kind = static_cast<int>(from.kind);
     to.radius = from.radius;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -385,28 +386,28 @@ void Particles::prepare_rigid(double time, double dt) {
   }
 }
 
-double Particles::stable_time_step() const { return books_.next_dt; }
+double Particles::stable_time_step() const { return energy_totals_.next_dt; }
 
-double Particles::next_release() const {
+double Particles::next_end_time() const {
   double next = std::numeric_limits<double>::infinity();
   for (Support const& s : supports_)
-    if (!has_ended(s.until, books_.time)) next = std::min(next, s.until);
+    if (!has_ended(s.until, energy_totals_.time)) next = std::min(next, s.until);
   for (Load const& l : loads_)
-    if (!has_ended(l.until, books_.time)) next = std::min(next, l.until);
+    if (!has_ended(l.until, energy_totals_.time)) next = std::min(next, l.until);
   return next;
 }
 
 void Particles::step(double time, double dt) {
-  if (exchanges_ && balance_.due()) cut_anew();
+  if (exchanges_ && balance_.due()) rebalance();
   prepare_supports(time + dt);
   prepare_loads(time + 0.5 * dt);
   prepare_rigid(time, dt);
   factors_.go_to(time + 0.5 * dt);
-  books_.time = time + dt;
+  energy_totals_.time = time + dt;
   evaluate(dt);
   sum_actions(time, dt);
   factors_.end_of_step();
-  if (exchanges_ && (failure_.index != FailureSlot::none || crowded_)) tell_failure();
+  if (exchanges_ && (failure_.index != FailureSlot::none || neighbour_overflow_)) broadcast_failure();
 }
 
 /// Forces act at half time and at the places of then, for the whole step: impulses of the supports, then of the loads,
@@ -419,7 +420,7 @@ std::vector<ImpulseSum> Particles::impulses(double time, double dt) const {
   for (std::size_t s = 0; s < supports_.size(); ++s)
     for (auto const particle : supports_[s].particles) {
       std::size_t const slot = at(order_.slot(particle));
-      if (!is_own(order_.slot(particle))) continue;
+      if (!is_local(order_.slot(particle))) continue;
       std::array<double, 3> impulse{};
       for (std::size_t c = 0; c < 3; ++c)
         if (holder_[3 * slot + c] == s) impulse[c] = dt * reaction_[3 * slot + c];
@@ -429,7 +430,7 @@ std::vector<ImpulseSum> Particles::impulses(double time, double dt) const {
     if (loads_[l].name.empty() || has_ended(loads_[l].until, time + 0.5 * dt)) continue;
     for (std::size_t k = 0; k < loads_[l].particles.size(); ++k) {
       Index const slot = order_.slot(loads_[l].particles[k]);
-      if (!is_own(slot)) continue;
+      if (!is_local(slot)) continue;
       std::array<double, 3> impulse{};
       for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c)
         impulse[c] = dt * fields_.mass.at(slot) * load_on(loads_[l], k, X(slot), time + 0.5 * dt)[c];
@@ -441,7 +442,7 @@ std::vector<ImpulseSum> Particles::impulses(double time, double dt) const {
 
 void Particles::sum_actions(double time, double dt) {
   actions_.begin(dt);
-  action_sums_.emplace(ActionSums{dt, impulses(time, dt), std::vector<exec::ExactSums<6>>(shapes_.size())});
+  action_sums_.emplace(ResultantSums{dt, impulses(time, dt), std::vector<exec::ReproducibleSums<6>>(shapes_.size())});
   for (std::size_t block = 0; block < rigid_action_.size(); block += 6)
     action_sums_->rigids[block / 6 % shapes_.size()].add(&rigid_action_[block]);
   for (std::size_t k = 0; k < shapes_.size(); ++k) std::copy_n(rigid_[k].centre, 3, actions_.rigid_about[k].begin());
@@ -453,21 +454,21 @@ void Particles::sum_actions(double time, double dt) {
 /// Computes sums over neighbours and their inputs.
 void Particles::sweep(double dt) {
   Stopwatch const watch(seconds_.sweeps);
-  BusyWatch const work(balance_.busy());
+  WorkTimer const work(balance_.busy());
   System& s = system_;
-  if (lagrangian_) machine_->deform(s);
-  machine_->half_state(s, dt);
+  if (lagrangian_) backend_->deform(s);
+  backend_->half_state(s, dt);
   if (exchanges_) exchanges_->after_half_state(s);
   if (s.settings.corrected) {
-    if (s.spatial.targets > 0) machine_->correct(s);
+    if (s.spatial.targets > 0) backend_->correct(s);
     if (exchanges_) exchanges_->after_correction(s);
   }
-  machine_->sweep(s);
+  backend_->sweep(s);
 }
 
 /// Builds the spatial neighbour lists of this step.
-void Particles::make_lists(SpatialLists::Others const& others) {
-  spatial_.build(system_, others, *machine_, balance_.busy());
+void Particles::make_lists(SpatialLists::RemoteParticles const& others) {
+  spatial_.build(system_, others, *backend_, balance_.busy());
   spatial_.put_into(system_);
   if (exchanges_) exchanges_->after_lists(system_);
 }
@@ -477,10 +478,11 @@ void Particles::evaluate(double dt) {
   System& s = system_;
   {
     Stopwatch const watch(seconds_.points);
-    BusyWatch const work(balance_.busy());
-    machine_->predict(s, dt);
+    WorkTimer const work(balance_.busy());
+    backend_->predict(s, dt);
   }
-  SpatialLists::Others const others = exchanges_ ? exchanges_->before_lists(s) : SpatialLists::Others{};
+  SpatialLists::RemoteParticles const others =
+      exchanges_ ? exchanges_->before_lists(s) : SpatialLists::RemoteParticles{};
   if (failure_.index != FailureSlot::none) return;
   if (exchanges_) exchanges_->after_prediction(s);
   {
@@ -488,23 +490,23 @@ void Particles::evaluate(double dt) {
     make_lists(others);
   }
   sweep(dt);
-  Measures m;
+  StepSums m;
   {
     Stopwatch const watch(seconds_.points);
-    BusyWatch const work(balance_.busy());
-    m = machine_->finish(s, dt);
+    WorkTimer const work(balance_.busy());
+    m = backend_->finish(s, dt);
   }
-  books_.contact_energy += dt * m.contact_power;
-  books_.hourglass_energy += dt * m.hourglass_power;
-  books_.viscous_loss += dt * m.viscous_power;
-  books_.artificial_work += dt * m.artificial_power;
-  books_.external_work += dt * (m.held_power + m.load_power + m.rigid_power);
-  books_.overlap = std::max(books_.overlap, m.overlap);
-  books_.next_dt = m.dt;
-  crowded_ = m.crowded;
+  energy_totals_.contact_energy += dt * m.contact_power;
+  energy_totals_.hourglass_energy += dt * m.hourglass_power;
+  energy_totals_.viscous_loss += dt * m.viscous_power;
+  energy_totals_.artificial_work += dt * m.artificial_power;
+  energy_totals_.external_work += dt * (m.held_power + m.load_power + m.rigid_power);
+  energy_totals_.overlap = std::max(energy_totals_.overlap, m.overlap);
+  energy_totals_.next_dt = m.dt;
+  neighbour_overflow_ = m.neighbour_overflow;
   Stopwatch const watch(seconds_.conversion);
-  bool const by_formula = wishes_by_formula();
-  if (by_formula || m.wishes > 0) convert(dt);
+  bool const by_formula = requests_by_formula();
+  if (by_formula || m.conversion_requests > 0) convert(dt);
 }
 
 void Particles::damp(double factor) {
@@ -513,18 +515,18 @@ void Particles::damp(double factor) {
     for (Index i = own.first; i < own.last; ++i)
       for (int c = 0; c < 3; ++c)
         if (held_.empty() || held_[3 * at(i) + at(c)] == 0) fields_.v.at(i, c) *= factor;
-  books_.damping_loss += before - kinetic_energy();
+  energy_totals_.damping_loss += before - kinetic_energy();
 }
 
 double Particles::kinetic_energy() const {
-  exec::ExactSums<1> sum;
+  exec::ReproducibleSums<1> sum;
   for (Range const& own : own_)
-    sum.add(exec_host::sums_of<1>(own.last - own.first, [&](Index k, double* of_one) {
+    sum.add(exec_host::parallel_sums<1>(own.last - own.first, [&](Index k, double* of_one) {
       Index const i = own.first + k;
       double const x = fields_.v.at(i, 0), y = fields_.v.at(i, 1), z = fields_.v.at(i, 2);
       *of_one = 0.5 * fields_.mass.at(i) * (x * x + y * y + z * z);
     }));
-  if (exchanges_) ranks::add(sum);
+  if (exchanges_) comm::allreduce_sum(sum);
   return sum.value();
 }
 
@@ -535,7 +537,7 @@ std::size_t Particles::bytes() const {
 
 /// Whether some particle is.
 bool Particles::deleted() const {
-  return any_of([&](Index i) { return !(fields_.alive.at(i) > 0); });
+  return any_of([&](Index i) { return !(fields_.active.at(i) > 0); });
 }
 
 void Particles::resumed() {

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/exact_sum.hpp"
-#include "piola/exec/part_filled.hpp"
-#include "piola/formulations/adaptle/exchanges.hpp"
+#include "piola/domain/load_balancer.hpp"
+#include "piola/exec/lazy_zero_array.hpp"
+#include "piola/exec/reproducible_sum.hpp"
 #include "piola/formulations/adaptle/fields.hpp"
+#include "piola/formulations/adaptle/law_factors.hpp"
 #include "piola/formulations/adaptle/lost_surfaces.hpp"
-#include "piola/formulations/adaptle/material_lists.hpp"
 #include "piola/formulations/adaptle/options.hpp"
-#include "piola/formulations/adaptle/own_particles.hpp"
 #include "piola/formulations/adaptle/particle_order.hpp"
-#include "piola/formulations/adaptle/point_factors.hpp"
+#include "piola/formulations/adaptle/particle_partition.hpp"
+#include "piola/formulations/adaptle/reference_lists.hpp"
 #include "piola/formulations/adaptle/spatial_lists.hpp"
-#include "piola/formulations/shared_lines.hpp"
-#include "piola/mechanics/actions.hpp"
+#include "piola/formulations/adaptle/step_halo_exchanges.hpp"
+#include "piola/formulations/common/lattice_line_halo.hpp"
 #include "piola/mechanics/prescribed.hpp"
-#include "piola/parallel/work_balance.hpp"
+#include "piola/mechanics/resultants.hpp"
 #include <array>
 #include <memory>
 #include <optional>
@@ -26,7 +26,7 @@
 namespace piola::adaptle {
 
 /// Sums since the start of the run [J], and counts.
-struct Books {
+struct EnergyTotals {
   double contact_energy = 0, viscous_loss = 0, external_work = 0;
   double converted = 0, by_guard = 0, converted_mass = 0, energy_change = 0, momentum_change = 0, deleted = 0;
   double overlap = 0;
@@ -47,14 +47,14 @@ struct Books {
 };
 
 /// Wall time by part of a step [s].
-struct PartSeconds {
+struct StepTimings {
   double lists = 0, sweeps = 0, points = 0, conversion = 0;
 };
 
 /// All particles of a run: their memory, the order of a step, supports and loads.
 class Particles {
  public:
-  Particles(Assembly const& assembly, Options const& options, Machine const& machine);
+  Particles(Assembly const& assembly, Options const& options, Backend const& backend);
   Particles(Particles const&) = delete;
   Particles& operator=(Particles const&) = delete;
 
@@ -62,18 +62,18 @@ class Particles {
   void damp(double factor);
   double kinetic_energy() const;
   double stable_time_step() const;
-  double next_release() const;
+  double next_end_time() const;
 
   System const& system() const { return system_; }
   ParticleOrder const& order() const { return order_; }
-  Books const& books() const { return books_; }
+  EnergyTotals const& energy_totals() const { return energy_totals_; }
   /// Reduces the actions of the last step over ranks. Collective.
-  Actions actions() const;
+  Resultants actions() const;
   void restore_actions(std::span<double const> state) {
     action_sums_.reset();
     actions_.restore(state);
   }
-  PartSeconds const& seconds() const { return seconds_; }
+  StepTimings const& seconds() const { return seconds_; }
   Options const& options() const { return options_; }
   FailureSlot const& failure() const { return failure_; }
   SpatialLists const& spatial() const { return spatial_; }
@@ -82,7 +82,7 @@ class Particles {
 
   Fields& fields() { return fields_; }
   Fields const& fields() const { return fields_; }
-  Books& books() { return books_; }
+  EnergyTotals& energy_totals() { return energy_totals_; }
   /// Calls f(field) for all fields of a checkpoint, `alive` first. Slots count if is_saved(). Deformation follows from
   /// positions, except for deleted particles. The reference data of converted particles are not needed.
   template <class Set, class F>
@@ -96,30 +96,32 @@ class Particles {
     f(fields.gap);
   }
   bool is_saved(Field const& field, Index slot) const {
-    return field.role() == Role::evolved || !(fields_.alive.at(slot) > 0);
+    return field.role() == Role::evolved || !(fields_.active.at(slot) > 0);
   }
   std::vector<double>& rigid_centres() { return rigid_centre_; }
   std::vector<double> const& rigid_centres() const { return rigid_centre_; }
   /// Rebuilds derived data after a checkpoint has been loaded.
   void resumed();
   /// Whether a particle has more neighbours than can be listed.
-  bool crowded() const { return crowded_; }
+  bool neighbour_overflow() const { return neighbour_overflow_; }
   /// Motion of these particles, replicated on all ranks [m], [m/s].
   void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                    std::span<std::array<double, 3>> v) const;
   /// Whether the slot is local.
-  bool is_own(Index slot) const {
+  bool is_local(Index slot) const {
     Range const own = own_[static_cast<std::size_t>(body_of_[static_cast<std::size_t>(slot)])];
     return slot >= own.first && slot < own.last;
   }
   /// Mass of a particle of any rank for contact [kg]; 0 for deleted particles, which do not take part in contact.
-  double mass_that_touches(std::int64_t id) const;
+  double contact_mass(std::int64_t id) const;
   /// For estimates.
-  Talk talk(int body) const { return Exchanges::talk(system_, spatial_, body); }
-  OwnParticles const& owned() const { return owned_; }
+  CommPattern comm_pattern(int body) const { return StepHaloExchanges::comm_pattern(system_, spatial_, body); }
+  ParticlePartition const& local_particles() const { return owned_; }
   /// Lattice lines for observers on several ranks; null on one rank.
-  SharedLines* lines(int body) const { return lines_.empty() ? nullptr : lines_[static_cast<std::size_t>(body)].get(); }
-  std::optional<Recuts> recuts() const { return balance_.recuts(); }
+  LatticeLineHalo* lines(int body) const {
+    return lines_.empty() ? nullptr : lines_[static_cast<std::size_t>(body)].get();
+  }
+  std::optional<RepartitionStatistics> repartition_statistics() const { return balance_.repartition_statistics(); }
   LostSurfaces const& lost_surfaces() const { return lost_; }
 
  private:
@@ -145,19 +147,19 @@ class Particles {
   void prepare_loads(double time);
   void prepare_rigid(double time, double dt);
   void sum_actions(double time, double dt);
-  void tell_failure();
+  void broadcast_failure();
   void start();
-  void make_lists(SpatialLists::Others const& others);
+  void make_lists(SpatialLists::RemoteParticles const& others);
   void sweep(double dt);
   void evaluate(double dt);
   void convert(double dt);
-  bool wishes_by_formula();
+  bool requests_by_formula();
   /// Mass, change of energy and of momentum of the particles converted in a step.
-  using ConversionSums = exec::ExactSums<3>;
+  using ConversionSums = exec::ReproducibleSums<3>;
   /// Repartitions the particles by their measured work. All values stay bit-identical.
-  void cut_anew();
-  void take(std::vector<Shares> cuts);
-  void hand_over(std::vector<Shares> const& from, std::vector<Shares> const& to);
+  void rebalance();
+  void take(std::vector<Partition> cuts);
+  void hand_over(std::vector<Partition> const& from, std::vector<Partition> const& to);
   double work_of(Index slot) const;
   std::vector<ImpulseSum> impulses(double time, double dt) const;
   void lose_surface(Index slot);
@@ -168,51 +170,51 @@ class Particles {
 
   Options options_;
   ParticleOrder order_;
-  Machine const* machine_;
+  Backend const* backend_;
   System system_;
   std::vector<BodyConstants> body_;
-  OwnParticles owned_;
-  std::vector<Range> own_;                ///< of each body: the local slots
-  std::unique_ptr<Exchanges> exchanges_;  ///< null on one rank
-  std::vector<std::unique_ptr<SharedLines>> lines_;
+  ParticlePartition owned_;
+  std::vector<Range> own_;                        ///< of each body: the local slots
+  std::unique_ptr<StepHaloExchanges> exchanges_;  ///< null on one rank
+  std::vector<std::unique_ptr<LatticeLineHalo>> lines_;
   std::vector<int> body_of_;
   Fields fields_;
-  PartFilled<Correction> correction_;
-  PartFilled<std::int8_t> wish_;
-  PartFilled<double> position_;
+  LazyZeroArray<Correction> correction_;
+  LazyZeroArray<std::int8_t> conversion_requests_;
+  LazyZeroArray<double> position_;
   std::vector<std::uint8_t> eulerian_;
   MaterialLists material_;
   SpatialLists spatial_;
   Memory material_records_;
-  std::vector<ContactPair> contact_pairs_;
+  std::vector<KernelContactPair> contact_pairs_;
   LostSurfaces lost_;
   std::vector<double> partial_;
-  PartFilled<double> rigid_power_;
+  LazyZeroArray<double> rigid_power_;
   PointFactors factors_;
   FailureSlot failure_;
-  Books books_;
-  PartSeconds seconds_;
+  EnergyTotals energy_totals_;
+  StepTimings seconds_;
   bool lagrangian_ = false;  ///< whether some particle is not fully Eulerian
-  bool crowded_ = false;
+  bool neighbour_overflow_ = false;
   // Boundaries
   std::vector<Support> supports_;
   std::vector<Load> loads_;
-  PartFilled<std::int8_t> held_;
-  PartFilled<std::size_t> holder_;  ///< per component: index of the support that holds it
-  PartFilled<double> held_velocity_, load_, reaction_;
+  LazyZeroArray<std::int8_t> held_;
+  LazyZeroArray<std::size_t> holder_;  ///< per component: index of the support that holds it
+  LazyZeroArray<double> held_velocity_, load_, reaction_;
   std::vector<double> rigid_action_;
-  Actions actions_;
+  Resultants actions_;
   /// Local impulses of the last step whose reduction is deferred; empty once they are in `actions_`.
-  struct ActionSums {
+  struct ResultantSums {
     double dt;
-    std::vector<ImpulseSum> impulses;        ///< of supports, then of loads
-    std::vector<exec::ExactSums<6>> rigids;  ///< force and moment of rigid shapes
+    std::vector<ImpulseSum> impulses;               ///< of supports, then of loads
+    std::vector<exec::ReproducibleSums<6>> rigids;  ///< force and moment of rigid shapes
   };
-  std::optional<ActionSums> action_sums_;
+  std::optional<ResultantSums> action_sums_;
   std::vector<RigidShape> shapes_;
-  std::vector<RigidPlace> rigid_;
+  std::vector<RigidPoseAtHalfTime> rigid_;
   std::vector<double> rigid_centre_;
-  WorkBalance balance_;
+  LoadBalancer balance_;
   ParticleSet const set_;  ///< copy-on-write, shared with the case
 };
 

@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/formulations/adaptle/kick_pass.hpp"
 
-namespace piola::adaptle::inline PIOLA_MACHINE {
+namespace piola::adaptle::inline PIOLA_BACKEND {
 
 /// Plane stress: the out-of-plane strain rate for which the out-of-plane stress vanishes at the end of the step, by the
 /// secant method, particle by particle [1/s].

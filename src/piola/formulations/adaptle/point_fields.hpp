@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/adaptle/components.hpp"
+#include "piola/formulations/adaptle/component_views.hpp"
 #include "piola/formulations/adaptle/state.hpp"
-#include "piola/materials/solids.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
 
 /// Inputs of the law at a point, read from fields. V is `double`, for observers, or a pack of lanes.
-namespace piola::adaptle::inline PIOLA_MACHINE {
+namespace piola::adaptle::inline PIOLA_BACKEND {
 
 struct PointFields {
-  Components S, plastic_strain, temperature, damage, plastic_work, bulking, alive, released;
-  OwnFactors own;
+  Components S, plastic_strain, temperature, damage, plastic_work, bulking, active, released;
+  LawFactors own;
 
-  PointFields(ParticleFields const& f, OwnFactors const& factors)
+  PointFields(ParticleFields const& f, LawFactors const& factors)
       : S(read(f.S)),
         plastic_strain(read(f.plastic_strain)),
         temperature(read(f.temperature)),
         damage(read(f.damage)),
         plastic_work(read(f.plastic_work)),
         bulking(read(f.bulking)),
-        alive(read(f.alive)),
+        active(read(f.active)),
         released(read(f.released)),
         own(factors) {}
 
@@ -37,7 +37,7 @@ struct PointFields {
   /// Whether a particle carries a deviator.
   template <class V>
   PIOLA_FN auto bears(Index i) const {
-    return alive.scalar<V>(i) > 0.0 && released.scalar<V>(i) < 1.0;
+    return active.scalar<V>(i) > 0.0 && released.scalar<V>(i) < 1.0;
   }
 
   /// The pressure of a particle, positive in compression [Pa]: equation of state, without the released tension of a
@@ -47,7 +47,7 @@ struct PointFields {
     V p = law.pressure(history<V>(i, {}), rho, e);
     p = select(p < 0.0, p * (1.0 - released.scalar<V>(i)), p);
     if (own.initial_pressure != nullptr) p = p - load<V>(own.initial_pressure + i);
-    return select(alive.scalar<V>(i) > 0.0, p, V(0.0));
+    return select(active.scalar<V>(i) > 0.0, p, V(0.0));
   }
 
  private:

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/adaptle/material_pairs.hpp"
 #include "piola/formulations/adaptle/point_fields.hpp"
+#include "piola/formulations/adaptle/reference_pair_sums.hpp"
 
 /// Operations at one particle between the sweeps, a group of lanes at a time. The scheme drifts half a step, evaluates
 /// everything once at half time with predicted rates, kicks, and drifts the other half. Law-independent parts are
 /// separate structs, so that they are compiled once.
-namespace piola::adaptle::inline PIOLA_MACHINE {
+namespace piola::adaptle::inline PIOLA_BACKEND {
 
 /// Factor of the viscosity, never zero: its sign encodes the kernel type.
 PIOLA_FN Lanes positive_factor(Lanes const& viscosity) { return maximum(viscosity, Lanes(1e-300)); }
@@ -15,7 +15,7 @@ PIOLA_FN Lanes positive_factor(Lanes const& viscosity) { return maximum(viscosit
 template <int D>
 struct Drift {
   double dt;
-  Components X, volume, v, a, viscosity, phi, alive, thickness, thickness_rate;
+  Components X, volume, v, a, viscosity, phi, active, thickness, thickness_rate;
   OwnComponents x, v_half, thickness_half, force, heat, hourglass, compression, contact;
   double* position;
   MaterialTable material;
@@ -30,7 +30,7 @@ struct Drift {
         a(read(s.field.a)),
         viscosity(read(s.field.viscosity)),
         phi(read(s.field.phi)),
-        alive(read(s.field.alive)),
+        active(read(s.field.active)),
         thickness(read(s.field.thickness)),
         thickness_rate(read(s.field.thickness_rate)),
         x(write(s.field.x)),
@@ -100,7 +100,7 @@ struct Drift {
       r[R::u + c] = place[c] - r[R::X + c];
       r[R::v + c] = speed[c];
     }
-    auto const there = alive.scalar<Lanes>(g.first) > 0.0;
+    auto const there = active.scalar<Lanes>(g.first) > 0.0;
     r[R::volume] = select(there, volume.scalar<Lanes>(g.first), Lanes(0.0));
     Lanes const factor = positive_factor(viscosity.scalar<Lanes>(g.first));
     r[R::viscosity] = select(phi.scalar<Lanes>(g.first) > 0.0 && there, -factor, factor);

@@ -6,7 +6,7 @@
 #include "piola/neighbours/partial_records.hpp"
 
 /// Neighbour data of a particle: records of doubles, a multiple of eight long, and the kernel between two of them.
-namespace piola::adaptle::inline PIOLA_MACHINE {
+namespace piola::adaptle::inline PIOLA_BACKEND {
 
 constexpr int whole(int values) { return (values + 7) / 8 * 8; }
 
@@ -76,7 +76,7 @@ PIOLA_FN Lanes load_gradients(float const* p) {
 #endif
 }
 
-PIOLA_FN double sum_of(Lanes const& a) {
+PIOLA_FN double parallel_sum(Lanes const& a) {
   double sum = 0;
   for (int l = 0; l < lane_count; ++l) sum += lane(a, l);
   return sum;

@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/formulations/adaptle/spatial_sweep.hpp"
 
-namespace piola::adaptle::inline PIOLA_MACHINE {
+namespace piola::adaptle::inline PIOLA_BACKEND {
 
 /// Flux from the acoustic Riemann problem of each pair (the CON scheme that Mehra and Chaturvedi, J. Comput. Phys. 212,
 /// 2006, compare, after Parshikov and Medin): along n = r/|r| and across it, with impedances Z = rho c_p and rho c_s,

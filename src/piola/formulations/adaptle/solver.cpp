@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/solver.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/domain/communicator.hpp"
 #include "piola/formulations/adaptle/observe.hpp"
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/formulations/adaptle/particles.hpp"
-#include "piola/formulations/checkpoint.hpp"
-#include "piola/formulations/surface_loss.hpp"
-#include "piola/materials/solids.hpp"
+#include "piola/formulations/common/field_checkpoint.hpp"
+#include "piola/formulations/common/surface_loss.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
 #include "piola/mechanics/prescribed.hpp"
-#include "piola/parallel/ranks.hpp"
 #include <cmath>
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ namespace {
 void check(Assembly const& assembly) {
   Problems problems;
   for (std::size_t b = 0; b < assembly.materials.size(); ++b)
-    if (!is_solid(assembly.materials[b]))
+    if (!is_hypoelastic(assembly.materials[b]))
       problems.add({}, fmt::format("adaptle: the law of body \"{}\" has no rate form (allowed: elastic, "
                                    "perfectly_plastic, isotropic_hardening, johnson_cook, zerilli_armstrong, "
                                    "johnson_holmquist, steinberg_guinan) - choose another law or formulation",
@@ -53,15 +53,16 @@ class Solver final : public Formulation, public SurfaceLoss {
  public:
   explicit Solver(Assembly const& assembly)
       : set_(assembly.particles),
-        particles_(assembly, read_options(assembly), choose_machine(assembly.machine.c_str())) {}
+        particles_(assembly, read_options(assembly), choose_backend(assembly.backend.c_str())) {}
 
   double stable_time_step() const override {
-    return up_to_release(particles_.stable_time_step(), particles_.next_release() - particles_.books().time);
+    return clip_step_to_end_time(particles_.stable_time_step(),
+                                 particles_.next_end_time() - particles_.energy_totals().time);
   }
-  double settled_time_step() const override { return particles_.stable_time_step(); }
-  StepRule step_rule() const override {
-    StepRule rule;
-    rule.settled = rule.first = settled_time_step();
+  double steady_time_step() const override { return particles_.stable_time_step(); }
+  StepEstimate step_estimate_of_run() const override {
+    StepEstimate rule;
+    rule.settled = rule.first = steady_time_step();
     rule.limit =
         fmt::format("waves: run.cfl h / c with run.cfl = {}; in the run also by viscosity, accelerations and contact",
                     particles_.system().settings.cfl);
@@ -74,12 +75,12 @@ class Solver final : public Formulation, public SurfaceLoss {
     particles_.read_motion(ids, x, v);
   }
   void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
-    for (std::size_t k = 0; k < ids.size(); ++k) m[k] = particles_.mass_that_touches(ids[k]);
+    for (std::size_t k = 0; k < ids.size(); ++k) m[k] = particles_.contact_mass(ids[k]);
   }
-  void push(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
+  void add_velocities(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
     for (std::size_t k = 0; k < ids.size(); ++k) {
       Index const slot = particles_.order().slot(ids[k]);
-      if (!particles_.is_own(slot)) continue;
+      if (!particles_.is_local(slot)) continue;
       for (std::size_t c = 0; c < 3; ++c) particles_.fields().v.at(slot, static_cast<int>(c)) += change[k][c];
     }
   }
@@ -91,41 +92,45 @@ class Solver final : public Formulation, public SurfaceLoss {
   double kinetic_energy() const override { return particles_.kinetic_energy(); }
   std::optional<Failure> failure() const override;
   Diagnostics diagnose() const override { return observe(particles_, set_); }
-  std::vector<FieldInfo> fields() const override { return observed_fields(); }
+  std::vector<FieldInfo> fields() const override { return output_field_names(); }
   void sample(std::string_view field, std::span<double> values) const override {
     adaptle::sample(particles_, field, values);
   }
-  std::optional<std::vector<std::int64_t>> owned() const override {
-    return ranks::several() ? std::optional(particles_.owned().ids()) : std::nullopt;
+  std::optional<std::vector<std::int64_t>> local_particles() const override {
+    return comm::is_parallel() ? std::optional(particles_.local_particles().ids()) : std::nullopt;
   }
-  void sample_owned(std::string_view field, std::span<double> values) const override {
-    ranks::several() ? adaptle::sample_own(particles_, field, values) : sample(field, values);
+  void sample_local(std::string_view field, std::span<double> values) const override {
+    comm::is_parallel() ? adaptle::sample_local_slots(particles_, field, values) : sample(field, values);
   }
   void save(StateWriter& writer) const override;
   void load(StateReader& reader) override;
   int stages_per_step() const override { return 1; }
-  std::vector<std::pair<std::string, double>> costs() const override {
-    PartSeconds const& s = particles_.seconds();
+  std::vector<std::pair<std::string, double>> timings() const override {
+    StepTimings const& s = particles_.seconds();
     return {{"neighbour_lists", s.lists}, {"sweeps", s.sweeps}, {"points", s.points}, {"conversion", s.conversion}};
   }
   std::size_t memory_bytes() const override { return particles_.bytes(); }
-  std::optional<Recuts> recuts() const override { return particles_.recuts(); }
-  std::optional<Talk> talk(std::size_t body) const override { return particles_.talk(static_cast<int>(body)); }
+  std::optional<RepartitionStatistics> repartition_statistics() const override {
+    return particles_.repartition_statistics();
+  }
+  std::optional<CommPattern> comm_pattern(std::size_t body) const override {
+    return particles_.comm_pattern(static_cast<int>(body));
+  }
 
  private:
   /// The rows of a field of the local particles, whose ids are given.
-  RowsOfRanks rows_of(Field const& field, std::vector<Index> const& ids) const {
+  DistributedRows rows_of(Field const& field, std::vector<Index> const& ids) const {
     return {0, particles_.system().particles, ids, field.components()};
   }
-  std::vector<Index> ids_of_own() const {
-    auto const ids = particles_.owned().ids();
+  std::vector<Index> local_ids() const {
+    auto const ids = particles_.local_particles().ids();
     return {ids.begin(), ids.end()};
   }
   /// f(value, slot, component) for a field of the particles of this rank.
   template <class Values, class F>
   void each_value(Field const& field, Values& mine, F const& f) const {
     auto const width = at(field.components());
-    particles_.owned().each(ranks::own(), [&](Index i, std::size_t k) {
+    particles_.local_particles().each(comm::rank(), [&](Index i, std::size_t k) {
       for (std::size_t c = 0; c < width; ++c) f(mine[k * width + c], i, static_cast<int>(c));
     });
   }
@@ -137,12 +142,12 @@ class Solver final : public Formulation, public SurfaceLoss {
 std::optional<Failure> Solver::failure() const {
   FailureSlot const& slot = particles_.failure();
   System const& s = particles_.system();
-  bool const crowded = particles_.crowded();
-  if (slot.index == FailureSlot::none && !crowded) return std::nullopt;
+  bool const neighbour_overflow = particles_.neighbour_overflow();
+  if (slot.index == FailureSlot::none && !neighbour_overflow) return std::nullopt;
   Index const i = slot.index == FailureSlot::none ? particles_.order().slot(0) : slot.index;
   Fields const& p = particles_.fields();
   Failure f;
-  f.what = crowded                         ? "is in a crowd of more than 4096 neighbours"
+  f.what = neighbour_overflow              ? "is in a crowd of more than 4096 neighbours"
            : slot.code == not_a_number     ? "has a position, velocity or stress that is not a number"
            : slot.code == negative_density ? "has no positive density"
                                            : "is inverted";
@@ -156,19 +161,19 @@ std::optional<Failure> Solver::failure() const {
               {"speed [m/s]", std::hypot(v[0], v[1], v[2])},
               {"damage", p.damage.at(i)},
               {"plastic strain", p.plastic_strain.at(i)},
-              {"contact overlap", particles_.books().overlap}};
+              {"contact overlap", particles_.energy_totals().overlap}};
   return f;
 }
 
 void Solver::save(StateWriter& writer) const {
-  std::vector<Index> const ids = ids_of_own();
+  std::vector<Index> const ids = local_ids();
   particles_.each_saved(particles_.fields(), [&](Field const& field) {
     std::vector<double> mine(ids.size() * at(field.components()));
     each_value(field, mine,
                [&](double& value, Index i, int c) { value = particles_.is_saved(field, i) ? field.at(i, c) : 0; });
     writer.put_rows(field.name(), rows_of(field, ids), mine);
   });
-  writer.put("books", particles_.books().state());
+  writer.put("books", particles_.energy_totals().state());
   writer.put("rigid_centres", particles_.rigid_centres());
   writer.put("actions", particles_.actions().state());
 }
@@ -176,9 +181,9 @@ void Solver::save(StateWriter& writer) const {
 /// Kernel types are replicated.
 void Solver::load(StateReader& reader) {
   Fields& fields = particles_.fields();
-  std::vector<Index> const ids = ids_of_own();
+  std::vector<Index> const ids = local_ids();
   particles_.each_saved(fields, [&](Field& field) {
-    if (&field == &fields.phi || &field == &fields.alive) {
+    if (&field == &fields.phi || &field == &fields.active) {
       std::vector<double> all(at(particles_.system().particles));
       reader.get(field.name(), all);
       for (Index i = 0; i < particles_.system().particles; ++i) field.at(i) = all[particles_.order().id(i)];
@@ -190,7 +195,7 @@ void Solver::load(StateReader& reader) {
       if (particles_.is_saved(field, i)) field.at(i, c) = value;
     });
   });
-  load_part(reader, "books", particles_.books());
+  load_part(reader, "books", particles_.energy_totals());
   reader.get("rigid_centres", particles_.rigid_centres());
   std::vector<double> actions = particles_.actions().state();
   reader.get("actions", actions);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/spatial_lists.hpp"
+#include "piola/domain/communicator.hpp"
+#include "piola/domain/load_balancer.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
-#include "piola/parallel/ranks.hpp"
-#include "piola/parallel/work_balance.hpp"
 #include <algorithm>
 
 namespace piola::adaptle {
@@ -17,7 +17,7 @@ std::array<double, 3> origin_of_cells(System const& s) {
 }
 
 /// Whether this rank works on it.
-bool is_own(System const& s, Index slot) {
+bool is_local(System const& s, Index slot) {
   Range const own = s.part[s.body_of[slot]];
   return slot >= own.first && slot < own.last;
 }
@@ -29,16 +29,16 @@ bool is_own(System const& s, Index slot) {
 void SpatialLists::sort_all(System const& s) {
   grid_.find_cells(s.position, 3, s.particles, s.dimension, widest_, origin_of_cells(s));
   grid_.sort({s.particles, s.slot_of});
-  everyone_ = s.eulerians == s.particles && !touching(s);
-  if (everyone_) return;
+  all_interact_ = s.eulerians == s.particles && !touching(s);
+  if (all_interact_) return;
   marks_.start(grid_.shape(), s.dimension);
   for (Index i = 0; i < s.particles; ++i) marks_.add(grid_.keys()[i], s.body_of[i], s.eulerian[i] != 0);
   marks_.finish(touching(s));
 }
 
 /// Sorts local particles and spatial ghosts into cells.
-void SpatialLists::sort_with_others(System const& s, Others const& others) {
-  NearExchange& near = *others.near;
+void SpatialLists::sort_with_ghosts(System const& s, RemoteParticles const& others) {
+  SpatialHaloExchange& near = *others.near;
   grid_.lay(others.bounds, s.particles, s.dimension, widest_, origin_of_cells(s),
             [&](std::size_t axis) { return near.coordinates(s, axis); });
   grid_.find_cells(s.position, 3, near.own());
@@ -49,23 +49,23 @@ void SpatialLists::sort_with_others(System const& s, Others const& others) {
 }
 
 void SpatialLists::choose_targets(System const& s) {
-  if (near_.size() != at(s.particles)) near_ = PartFilled<std::uint8_t>(at(s.particles));
+  if (near_.size() != at(s.particles)) near_ = LazyZeroArray<std::uint8_t>(at(s.particles));
   group_.resize(at(grid_.count()) + 16);
   for (Index k = 0; k < grid_.count(); ++k) {
     Index const slot = grid_.slots()[k], cell = grid_.cells()[k];
-    if (everyone_) {
+    if (all_interact_) {
       spatial_.target.push_back(k);
       continue;
     }
     group_[at(k)] = s.body_of[slot];
-    near_[at(slot)] = marks_.told(cell) & CellMarks::flow;
-    if (!is_own(s, slot)) continue;
-    if ((marks_.reads(cell) & CellMarks::flow) != 0) spatial_.target.push_back(k);
-    if ((marks_.reads(cell) & CellMarks::touch) != 0) contact_.target.push_back(k);
+    near_[at(slot)] = marks_.told(cell) & HaloCells::flow;
+    if (!is_local(s, slot)) continue;
+    if ((marks_.reads(cell) & HaloCells::flow) != 0) spatial_.target.push_back(k);
+    if ((marks_.reads(cell) & HaloCells::touch) != 0) contact_.target.push_back(k);
   }
 }
 
-void SpatialLists::build(System const& s, Others const& others, Machine const& machine, double& busy) {
+void SpatialLists::build(System const& s, RemoteParticles const& others, Backend const& backend, double& busy) {
   eulerian_ = s.eulerians > 0;
   spatial_.target.clear();
   contact_.target.clear();
@@ -74,14 +74,14 @@ void SpatialLists::build(System const& s, Others const& others, Machine const& m
   if (others.near != nullptr) others.near->forget();
   if (!needed(s)) return;
   if (others.near != nullptr)
-    sort_with_others(s, others);
+    sort_with_ghosts(s, others);
   else
     sort_all(s);
   choose_targets(s);
   {
-    BusyWatch const watch(busy);
-    search(s, machine, spatial_, false);
-    if (touching(s)) search(s, machine, contact_, true);
+    WorkTimer const watch(busy);
+    search(s, backend, spatial_, false);
+    if (touching(s)) search(s, backend, contact_, true);
   }
   if (!eulerian_) return;
   make_room(s);
@@ -107,13 +107,13 @@ void SpatialLists::make_room(System const& s) {
 /// Particles without a list get the zeros after the last result.
 void SpatialLists::place_results(System const& s) {
   constexpr Index beyond = 16;  // padding for groups of lanes
-  if (result_of_.size() != at(s.particles + beyond)) result_of_ = PartFilled<Index>(at(s.particles + beyond));
+  if (result_of_.size() != at(s.particles + beyond)) result_of_ = LazyZeroArray<Index>(at(s.particles + beyond));
   for (int b = 0; b < s.bodies; ++b)
     std::fill(result_of_.begin() + s.part[b].first, result_of_.begin() + s.part[b].last + beyond, grid_.count());
   for (Index const t : spatial_.target) result_of_[at(grid_.slots()[t])] = t;
 }
 
-void SpatialLists::search(System const& s, Machine const& machine, List& list, bool across) {
+void SpatialLists::search(System const& s, Backend const& backend, List& list, bool across) {
   auto const targets = static_cast<Index>(list.target.size());
   list.length.resize(list.target.size());
   list.found.resize(list.target.size());
@@ -125,7 +125,7 @@ void SpatialLists::search(System const& s, Machine const& machine, List& list, b
     double const reach = radius / widest_ + grid_.slack();
     reach_[static_cast<std::size_t>(b)] = static_cast<float>(reach * reach);
   }
-  MovingSearch q;
+  CellListSearch q;
   q.dimension = s.dimension;
   q.sources = grid_.count();
   for (int c = 0; c < 3; ++c) q.place[c] = grid_.place(c);
@@ -143,7 +143,7 @@ void SpatialLists::search(System const& s, Machine const& machine, List& list, b
     q.list = list.entry.data();
     q.length = list.length.data();
     q.found = list.found.data();
-    machine.search(q);
+    backend.search(q);
     Index longest = 0;
     for (Index const n : list.length) longest = std::max(longest, n);
     longest_ = longest;
@@ -162,9 +162,9 @@ void SpatialLists::put_into(System& s) {
   s.spatial.capacity = spatial_.capacity;
   s.spatial.list = spatial_.entry.data();
   s.spatial.length = spatial_.length.data();
-  s.spatial.near = everyone_ ? nullptr : near_.data();
+  s.spatial.near = all_interact_ ? nullptr : near_.data();
   s.spatial.record = eulerian_ ? records_.data() : nullptr;
-  s.crowded = overflow_;
+  s.neighbour_overflow = overflow_;
   s.spatial.result = eulerian_ ? results_.data() : nullptr;
   s.spatial.result_of = result_of_.data();
   s.contact.targets = static_cast<Index>(contact_.target.size());
@@ -174,8 +174,8 @@ void SpatialLists::put_into(System& s) {
   s.contact.length = contact_.found.data();
 }
 
-PartFilled<int> SpatialLists::neighbours_by_slot(System const& s) const {
-  PartFilled<int> count(at(s.particles));
+LazyZeroArray<int> SpatialLists::neighbours_by_slot(System const& s) const {
+  LazyZeroArray<int> count(at(s.particles));
   for (std::size_t t = 0; t < spatial_.found.size() && t < spatial_.target.size(); ++t)
     count[at(grid_.slots()[spatial_.target[t]])] = spatial_.found[t];
   return count;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/domain/halo_cells.hpp"
+#include "piola/exec/lazy_zero_array.hpp"
 #include "piola/exec/memory.hpp"
-#include "piola/exec/part_filled.hpp"
-#include "piola/formulations/adaptle/near_exchange.hpp"
+#include "piola/formulations/adaptle/spatial_halo_exchange.hpp"
 #include "piola/formulations/adaptle/state.hpp"
-#include "piola/parallel/cell_marks.hpp"
 #include <vector>
 
 namespace piola::adaptle {
@@ -15,12 +15,12 @@ namespace piola::adaptle {
 class SpatialLists {
  public:
   /// Input from other ranks: the spatial halo exchange (null on one rank) and the bounds of all particles.
-  struct Others {
-    NearExchange* near = nullptr;
+  struct RemoteParticles {
+    SpatialHaloExchange* near = nullptr;
     CoordinateBounds bounds{};  ///< of all particles
   };
   /// busy: increased by the time of the work on local particles [s].
-  void build(System const& system, Others const& others, Machine const& machine, double& busy);
+  void build(System const& system, RemoteParticles const& others, Backend const& backend, double& busy);
   void put_into(System& system);
   std::size_t bytes() const;
   Index longest() const { return longest_; }
@@ -30,7 +30,7 @@ class SpatialLists {
   static bool touching(System const& system) { return system.contact.law > 0 && system.bodies > 1; }
   double widest() const { return widest_; }  ///< edge of a cell [m]
   /// In the last step, per slot; 0 without a list on this rank.
-  PartFilled<int> neighbours_by_slot(System const& system) const;
+  LazyZeroArray<int> neighbours_by_slot(System const& system) const;
 
  private:
   struct List {
@@ -38,24 +38,24 @@ class SpatialLists {
     Index capacity = 64;
   };
   void sort_all(System const& system);
-  void sort_with_others(System const& system, Others const& others);
+  void sort_with_ghosts(System const& system, RemoteParticles const& others);
   void choose_targets(System const& system);
   void make_room(System const& system);
   void place_results(System const& system);
-  void search(System const& system, Machine const& machine, List& list, bool across);
+  void search(System const& system, Backend const& backend, List& list, bool across);
 
-  MovingGrid grid_;
-  CellMarks marks_;
-  PartFilled<std::uint8_t> near_;  ///< per sorted slot: whether another particle reads its record
+  CellList grid_;
+  HaloCells marks_;
+  LazyZeroArray<std::uint8_t> near_;  ///< per sorted slot: whether another particle reads its record
   std::vector<std::int32_t> group_;
   std::vector<float> reach_;
   List spatial_, contact_;
   Memory records_, results_;
-  PartFilled<Index> result_of_;
+  LazyZeroArray<Index> result_of_;
   Index record_room_ = 0, longest_ = 0;
   double widest_ = 0;
   bool eulerian_ = false, overflow_ = false;
-  bool everyone_ = false;
+  bool all_interact_ = false;
 };
 
 }  // namespace piola::adaptle

@@ -3,7 +3,7 @@
 #include "piola/formulations/adaptle/viscosity.hpp"
 
 /// Sums over spatial neighbours: set (1) of the paper.
-namespace piola::adaptle::inline PIOLA_MACHINE {
+namespace piola::adaptle::inline PIOLA_BACKEND {
 
 /// One target of the spatial table.
 struct SpatialTarget {
@@ -94,7 +94,7 @@ struct SpatialSweep {
     bool const here = own[R::viscosity] > 0;
     Lanes factor = 0.5 * (maximum(f[R::viscosity], -1.0 * f[R::viscosity]) + std::fabs(own[R::viscosity]));
     if (!here) factor = select(f[R::viscosity] > 0.0, factor, Lanes(0.0));
-    if (!here && settings.interface_form == Interface::printed) factor = Lanes(0.0);
+    if (!here && settings.interface_form == Interface::as_published) factor = Lanes(0.0);
     Lanes const pressure = plain * factor;
     Lanes stress_weight = Lanes(0.0);
     if constexpr (Stressed) {
@@ -318,7 +318,7 @@ struct CorrectSpatial {
       refused = refused || (square < h * h && along < 0.0);
       if (any(inside && refused)) return false;
     }
-    return sum_of(neighbours) >= 2;
+    return parallel_sum(neighbours) >= 2;
   }
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/device_loops.hpp"
 #include "piola/exec/field.hpp"
-#include "piola/exec/parallel.hpp"
 #include "piola/materials/registry.hpp"
-#include "piola/neighbours/moving_pairs.hpp"
-#include "piola/neighbours/tables.hpp"
+#include "piola/neighbours/cell_list.hpp"
+#include "piola/neighbours/pair_table_views.hpp"
 
 /// State of an AdapTLE run for its loops: plain data, independent of the instruction set. Particles keep their slots,
 /// those of a body contiguous; data for spatial sums are gathered into the order of the cell grid in every step.
@@ -12,8 +12,8 @@ namespace piola::adaptle {
 
 enum class Viscosity { compression, monaghan, balsara, morris_monaghan, riemann };
 enum class Interface {
-  owner,   ///< each particle acts through its own gradients, its neighbours receive the reaction: conserves
-  printed  ///< each particle sums with its own kernel type over all its neighbours, as published
+  owner,        ///< each particle acts through its own gradients, its neighbours receive the reaction: conserves
+  as_published  ///< each particle sums with its own kernel type over all its neighbours, as published
 };
 /// Artificial stress between a total-Lagrangian and an Eulerian particle.
 enum class MixedStress { both, eulerian_only, none };
@@ -22,7 +22,7 @@ enum class MixedStress { both, eulerian_only, none };
 using Offset = std::int64_t;
 
 /// Additions of a case to the law of a point, per slot; null: none.
-struct OwnFactors {
+struct LawFactors {
   double const* initial_pressure = nullptr;  ///< positive in tension [Pa]
   double const* burnt = nullptr;             ///< burnt fraction of an explosive at half time
   double const* toughness = nullptr;         ///< factor on the failure strength
@@ -36,7 +36,7 @@ struct ParticleFields {
   FieldRef thickness, thickness_half;  ///< in plane stress, over the initial one
   FieldRef viscosity;                  ///< factor on alpha and beta of the switch of the viscosity
   FieldRef phi;                        ///< kernel type: 0 total-Lagrangian, 1 Eulerian, between: blended
-  FieldRef alive;                      ///< 0: deleted, carries no stress
+  FieldRef active;                     ///< 0: deleted, carries no stress
   FieldRef released;                   ///< fraction of shear and tension that a failed particle has released
   FieldRef bulking;                    ///< pressure by bulking of broken material
   FieldRef a, S_rate, rho_rate, energy_rate, thickness_rate;
@@ -86,7 +86,7 @@ struct BodyConstants {
   MaterialParameters material;
   Index first = 0, last = 0;  ///< slots
   double h = 1;               ///< smoothing length of spatial sums [m]
-  double material_h = 1;      ///< of sums over reference neighbours [m]
+  double reference_h = 1;     ///< of sums over reference neighbours [m]
   double spacing = 1;         ///< dp [m]
   double rho0 = 1;            ///< [kg/m3]
   double least_rho = 0;       ///< minimum of Eulerian particles: mass spread over the whole kernel [kg/m3]
@@ -108,7 +108,7 @@ struct BodyConstants {
 };
 
 /// Forces between two bodies: U = eps (W(r) / W(dp))^n, or a linear spring of that stiffness.
-struct ContactPair {
+struct KernelContactPair {
   double eps = 0;  ///< [J]
   double h = 1, dp = 1;
   double exponent = 4;    ///< n
@@ -116,7 +116,7 @@ struct ContactPair {
 };
 
 /// A rigid shape at half time.
-struct RigidPlace {
+struct RigidPoseAtHalfTime {
   int kind = 0;
   double centre[3], axis[3], half[3], radius, velocity[3];
 };
@@ -138,7 +138,7 @@ struct SpatialTable {
 };
 
 /// Participation in material sums: bits of MaterialTable::part.
-struct MaterialPart {
+struct ReferenceRole {
   static constexpr std::uint8_t kinematic = 1;  ///< its F is needed
   static constexpr std::uint8_t target = 2;     ///< it receives material forces
   static constexpr std::uint8_t mixed = 4;      ///< some neighbour is not total-Lagrangian
@@ -162,7 +162,7 @@ struct MaterialTable {
   MaterialRows rows;                        ///< of the body of the current loop
   float const* gradient = nullptr;          ///< per pair: -W'(r)/r in the reference configuration, equal from both ends
   double const *s = nullptr, *W = nullptr;  ///< as `gradient`, in double, with plain gradients; W(r), as published
-  std::uint8_t const* part = nullptr;       ///< per slot: MaterialPart
+  std::uint8_t const* part = nullptr;       ///< per slot: ReferenceRole
   MaterialRows const* rows_of = nullptr;    ///< per body
 };
 
@@ -170,16 +170,16 @@ struct ContactTable {
   Index targets = 0;
   Index const* target = nullptr;  ///< sorted numbers
   Index capacity = 0;
-  Index const* list = nullptr;        ///< [target][capacity]: sorted numbers of particles of other bodies
-  Index const* length = nullptr;      ///< per target
-  ContactPair const* pair = nullptr;  ///< [body][body]
+  Index const* list = nullptr;              ///< [target][capacity]: sorted numbers of particles of other bodies
+  Index const* length = nullptr;            ///< per target
+  KernelContactPair const* pair = nullptr;  ///< [body][body]
   int law = 0;
-  double printed = 0;
+  double as_published = 0;
   double scale = 1;                    ///< of the stiffness of rigid shapes
   std::uint8_t const* lost = nullptr;  ///< per slot: whether its surface is lost (LostSurfaces)
 
   /// Whether kernel contact acts between two particles, and not surface contact.
-  [[gnu::always_inline]] PIOLA_FN bool acts(ContactPair const& between, Index i, Index j) const {
+  [[gnu::always_inline]] PIOLA_FN bool acts(KernelContactPair const& between, Index i, Index j) const {
     return !between.surfaces || lost[i] != 0 || lost[j] != 0;
   }
 };
@@ -198,18 +198,18 @@ struct Settings {
 };
 
 /// Results of a step.
-struct Measures {
+struct StepSums {
   double dt = 0;  ///< stable step from the new state [s]
   double contact_power = 0, hourglass_power = 0, rigid_power = 0, held_power = 0, load_power = 0, viscous_power = 0,
          artificial_power = 0;  ///< [W]
   double overlap = 0;
-  Index wishes = 0;      ///< number of particles to convert or to delete
-  bool crowded = false;  ///< whether a particle has more neighbours than can be listed
+  Index conversion_requests = 0;    ///< number of particles to convert or to delete
+  bool neighbour_overflow = false;  ///< whether a particle has more neighbours than can be listed
 };
 
 struct System {
-  bool shared = false;   ///< distributed over several ranks
-  bool crowded = false;  ///< as in Measures, for the lists of this rank
+  bool shared = false;              ///< distributed over several ranks
+  bool neighbour_overflow = false;  ///< as in Measures, for the lists of this rank
   int dimension = 3, bodies = 0;
   Index particles = 0;
   Settings settings;
@@ -225,18 +225,18 @@ struct System {
   SpatialTable spatial;
   MaterialTable material;
   ContactTable contact;
-  RigidPlace const* rigid = nullptr;
+  RigidPoseAtHalfTime const* rigid = nullptr;
   int rigids = 0;
   double* rigid_power = nullptr;  ///< per slot: power of moving shapes [W]
-  OwnFactors own;
+  LawFactors own;
   double const* load = nullptr;           ///< acceleration of loads at half time, 3 per slot; null: none
   std::int8_t const* held = nullptr;      ///< directions with a prescribed velocity, 3 per slot; null: none
   double const* held_velocity = nullptr;  ///< at the end of the step, 3 per slot
   double* reaction = nullptr;             ///< per slot: force of supports in the step, 3 values [N]; null: none
   double* rigid_action =
       nullptr;  ///< [block of a body][shape]: force [N] and moment about the origin [N m] of rigid shapes
-  std::int8_t* wish = nullptr;  ///< conversion request per slot: 0 none, 1 with its neighbours, 2 alone
-  double* partial = nullptr;    ///< room for reductions, 16 per block
+  std::int8_t* conversion_request = nullptr;  ///< conversion request per slot: 0 none, 1 with its neighbours, 2 alone
+  double* partial = nullptr;                  ///< room for reductions, 16 per block
   FailureSlot* failure = nullptr;
 };
 
@@ -244,7 +244,7 @@ struct System {
 enum FailureCode { not_a_number = 1, negative_density = 2, inverted = 3 };
 
 /// The loops of one instruction set.
-struct Machine {
+struct Backend {
   char const* name;
   int lanes;
   void (*predict)(System&, double dt);     ///< drifts to half time; writes motion records
@@ -252,13 +252,13 @@ struct Machine {
   void (*half_state)(System&, double dt);  ///< densities, pressures, and the records for both kernel types
   void (*correct)(System&);                ///< kernel and gradient corrections at half time
   void (*sweep)(System&);                  ///< forces, heat and velocity gradients
-  Measures (*finish)(System&, double dt);  ///< completes the step
-  void (*search)(MovingSearch const&);     ///< lists of spatial neighbours
+  StepSums (*finish)(System&, double dt);  ///< completes the step
+  void (*search)(CellListSearch const&);   ///< lists of spatial neighbours
 };
 
-// As for the other formulations (exec/instruction_sets.hpp).
-Machine const* find_machine(char const* name);
-char const* const* machine_names();
-Machine const& choose_machine(char const* name);
+// As for the other formulations (exec/backend_registry.hpp).
+Backend const* find_backend(char const* name);
+char const* const* backend_names();
+Backend const& choose_backend(char const* name);
 
 }  // namespace piola::adaptle

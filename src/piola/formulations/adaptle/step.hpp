@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/domain/communicator.hpp"
+#include "piola/domain/first_failure.hpp"
 #include "piola/formulations/adaptle/contact_sweep.hpp"
 #include "piola/formulations/adaptle/finish_pass.hpp"
 #include "piola/formulations/adaptle/force_sweep.hpp"
 #include "piola/formulations/adaptle/half_state.hpp"
 #include "piola/formulations/adaptle/riemann_sweep.hpp"
 #include "piola/formulations/adaptle/spatial_sweep.hpp"
-#include "piola/neighbours/moving_search.hpp"
-#include "piola/parallel/first_failure.hpp"
-#include "piola/parallel/ranks.hpp"
+#include "piola/neighbours/cell_list_search.hpp"
 
 /// One step, part by part; the host sorts particles and updates tables between the parts.
-namespace piola::adaptle::inline PIOLA_MACHINE {
+namespace piola::adaptle::inline PIOLA_BACKEND {
 
 template <int D>
 struct Step {
@@ -61,17 +61,17 @@ struct Step {
     if (s.rigids > 0) push_off_shapes();
   }
 
-  Measures finish(double dt) const {
-    Measures m;
+  StepSums finish(double dt) const {
+    StepSums m;
     m.dt = 1e300;
-    exec::ExactSums<BlockMeasures::sums> sums;
+    exec::ReproducibleSums<BlockMeasures::sums> sums;
     for (int b = 0; b < s.bodies; ++b)
       with_solid(s.body[b].material, [&](auto const& law) {
         Range const r = body_range(b);
         exec::for_each_block(r, Finish<D, std::decay_t<decltype(law)>>(law, s, s.body[b], material_of(b), dt));
         add_blocks(exec::block_count(r), m, sums);
       });
-    m.crowded = s.crowded;
+    m.neighbour_overflow = s.neighbour_overflow;
     if (s.shared) combine_over_ranks(m, sums);
     using B = BlockMeasures;
     m.contact_power = sums.value(B::contact);
@@ -154,35 +154,35 @@ struct Step {
   }
 
   /// Reduces the results of the step over ranks.
-  void combine_over_ranks(Measures& m, exec::ExactSums<BlockMeasures::sums>& sums) const {
-    struct Said {
-      Measures m;
-      exec::ExactSums<BlockMeasures::sums> sums;
+  void combine_over_ranks(StepSums& m, exec::ReproducibleSums<BlockMeasures::sums>& sums) const {
+    struct StepReduction {
+      StepSums m;
+      exec::ReproducibleSums<BlockMeasures::sums> sums;
       FirstFailure first;
     } said{m, sums, FirstFailure(*s.failure)};
-    ranks::combine(said, [](void const* other, void* mine) {
-      Said const& from = *static_cast<Said const*>(other);
-      Said& to = *static_cast<Said*>(mine);
+    comm::allreduce(said, [](void const* other, void* mine) {
+      StepReduction const& from = *static_cast<StepReduction const*>(other);
+      StepReduction& to = *static_cast<StepReduction*>(mine);
       to.sums.add(from.sums);
       to.first.add(from.first);
       to.m.dt = from.m.dt < to.m.dt ? from.m.dt : to.m.dt;
       to.m.overlap = from.m.overlap > to.m.overlap ? from.m.overlap : to.m.overlap;
-      to.m.wishes += from.m.wishes;
-      to.m.crowded = to.m.crowded || from.m.crowded;
+      to.m.conversion_requests += from.m.conversion_requests;
+      to.m.neighbour_overflow = to.m.neighbour_overflow || from.m.neighbour_overflow;
     });
     m = said.m;
     sums = said.sums;
     said.first.put(*s.failure);
   }
 
-  void add_blocks(Index blocks, Measures& m, exec::ExactSums<BlockMeasures::sums>& sums) const {
+  void add_blocks(Index blocks, StepSums& m, exec::ReproducibleSums<BlockMeasures::sums>& sums) const {
     using B = BlockMeasures;
     for (Index k = 0; k < blocks; ++k) {
       double const* p = s.partial + static_cast<std::ptrdiff_t>(k) * B::size;
       sums.add(p);
       m.dt = p[B::dt] < m.dt ? p[B::dt] : m.dt;
       m.overlap = p[B::overlap] > m.overlap ? p[B::overlap] : m.overlap;
-      m.wishes += static_cast<Index>(p[B::wishes]);
+      m.conversion_requests += static_cast<Index>(p[B::conversion_requests]);
     }
   }
 };

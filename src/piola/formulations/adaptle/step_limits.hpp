@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/adaptle/components.hpp"
+#include "piola/formulations/adaptle/component_views.hpp"
 #include "piola/math/tensor.hpp"
 
-namespace piola::adaptle::inline PIOLA_MACHINE {
+namespace piola::adaptle::inline PIOLA_BACKEND {
 
 /// Largest relative change of a volume, or of the spacing between bodies, in a step: with 0.1 the time error of an
 /// impact at several km/s shows in the fourth digit of its energy.

@@ -5,7 +5,7 @@
 #include <cmath>
 
 /// Artificial viscosity and artificial stress of one pair.
-namespace piola::adaptle::inline PIOLA_MACHINE {
+namespace piola::adaptle::inline PIOLA_BACKEND {
 
 /// Inputs of the viscosity of a pair.
 template <class T>
@@ -15,7 +15,7 @@ struct ViscousPair {
 };
 
 /// zeta rho0 c h of the hourglass damping [Pa s].
-PIOLA_FN double damping_of(BodyConstants const& b) { return b.hourglass * b.rho0 * b.c * b.material_h; }
+PIOLA_FN double damping_of(BodyConstants const& b) { return b.hourglass * b.rho0 * b.c * b.reference_h; }
 /// kappa of the hourglass stiffness [Pa].
 PIOLA_FN double stiffness_of(BodyConstants const& b) { return b.hourglass_stiffness * b.shear_modulus; }
 

@@ -26,7 +26,7 @@ FormulationInfo info() {
       {},
       usable_laws,
       diagnostics};
-  info.scattered = false;
+  info.off_lattice = false;
   info.mirrors = false;  // a periodic row has no faces
   return info;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_advection/solver.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/formulations/jst_advection/options.hpp"
 #include "piola/formulations/jst_advection/wave.hpp"
 #include "piola/materials/laws.hpp"
@@ -50,8 +50,8 @@ class Solver final : public Formulation {
   }
 
   double stable_time_step() const override { return options_.cfl * h_ / options_.wave_speed; }
-  StepRule step_rule() const override {
-    StepRule rule;
+  StepEstimate step_estimate_of_run() const override {
+    StepEstimate rule;
     rule.settled = rule.first = stable_time_step();
     rule.limit = fmt::format("the speed that is given: run.cfl h / c with run.cfl = {}", options_.cfl);
     return rule;

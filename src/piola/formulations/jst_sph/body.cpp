@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/body.hpp"
-#include "piola/base/problems.hpp"
-#include "piola/exec/set_up_loop.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/domain/bisection.hpp"
+#include "piola/domain/communicator.hpp"
+#include "piola/domain/slot_collectives.hpp"
+#include "piola/domain/sum_over_slots.hpp"
+#include "piola/exec/host_loops.hpp"
 #include "piola/formulations/jst_sph/passes.hpp"
-#include "piola/materials/solids.hpp"
-#include "piola/parallel/bisection.hpp"
-#include "piola/parallel/own_slots.hpp"
-#include "piola/parallel/ranks.hpp"
-#include "piola/parallel/sum_over_slots.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -18,11 +18,11 @@
 namespace piola::jst_sph {
 
 JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t body, Options const& options,
-                 Machine const& machine)
+                 Backend const& backend)
     : body_(set.bodies[body]),
       options_(options),
       D_(set.dimension),
-      order_(bisected(set, body_, dealt_order(set, body_), ranks::count())),
+      order_(bisected(set, body_, shuffled_order(set, body_), comm::size())),
       set_(&set),
       images_(assembly, body, order_, {reach(), reach(), reach()}),
       fields_(D_),
@@ -32,32 +32,32 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
         fmt::format("body '{}': a skew mirror plane turns strains round, which the volumetric filter does not "
                     "know of - switch volumetric_filter off or take another support",
                     body_.name));
-  make_pairs(set, machine);
+  make_pairs(set, backend);
   take_tables();
-  share(machine.lanes);
+  share(backend.lanes);
   set_constants(set, assembly.materials[body]);
-  share_reference(machine.lanes);
+  share_reference(backend.lanes);
   allocate();
   if (shared()) mark_halo();
-  fill_reference(machine.lanes);
+  fill_reference(backend.lanes);
   if (options_.filter) fill_filter();
-  if (options_.corrected_kernel()) fill_corrected_kernel(machine.lanes);
+  if (options_.corrected_kernel()) fill_corrected_kernel(backend.lanes);
   pairs_->keep_tables();
-  fill_initial(assembly, machine);
-  fill_solid(machine);
+  fill_initial(assembly, backend);
+  fill_solid(backend);
   boundary_.attach(state_);
   fill_evolved_geometry();
-  machine.update_wave_speed(state_);
+  backend.update_wave_speed(state_);
   if (options_.integrator != Integrator::verlet) return;
   state_.starting = true;
-  machine.step(state_, 0);  // the accelerations of the start
+  backend.step(state_, 0);  // the accelerations of the start
   state_.starting = false;
   if (!options_.hourglass()) return;
-  machine.observe_energy(state_);
+  backend.observe_energy(state_);
   state_.totals.viscous_work = hourglass_energy() + filtered_energy();
 }
 
-void JstBody::make_pairs(ParticleSet const& set, Machine const& machine) {
+void JstBody::make_pairs(ParticleSet const& set, Backend const& backend) {
   double const spacing = this->spacing();
   PairOptions pair;
   pair.kernel = options_.kernel;
@@ -65,23 +65,23 @@ void JstBody::make_pairs(ParticleSet const& set, Machine const& machine) {
   bool const kernel_table = options_.filter || options_.corrected_kernel();
   pair.h_laplacian = is_wide() ? options_.laplacian_support * spacing : 0;
   pair.kernel_table = kernel_table;
-  pair.lanes = machine.lanes;
+  pair.lanes = backend.lanes;
   // One lane at a time gains nothing from patterns: the portable path is the plain loop over a list.
-  pair.stencils = machine.lanes > 1 && images_.empty();
+  pair.stencils = backend.lanes > 1 && images_.empty();
   pair.copies = images_.particles();
-  if (!ranks::several()) {
+  if (!comm::is_parallel()) {
     pairs_ = std::make_unique<ReferencePairs>(set, body_, order_, pair);
     return;
   }
-  pair.own = SharedSlots{order_.slots(), order_.particles}.own();
-  ranks::Trouble trouble;  // each rank checks its local particles
+  pair.own = DistributedSlots{order_.slots(), order_.particles}.own();
+  comm::RankError trouble;  // each rank checks its local particles
   try {
     pairs_ = std::make_unique<ReferencePairs>(set, body_, order_, pair);
   } catch (InputError const& error) {
     trouble = {2, error.what()};
   }
-  trouble = ranks::agree(trouble);
-  if (trouble.code != 0) throw ranks::Disagreement(trouble);
+  trouble = comm::agree(trouble);
+  if (trouble.code != 0) throw comm::CollectiveError(trouble);
 }
 
 void JstBody::take_tables() {
@@ -143,10 +143,10 @@ void JstBody::set_hourglass(double mu) {
   auto& k = state_.constants;
   double const c = std::min(k.c_p0, std::sqrt((7.0 / 3.0) * mu / k.rho0));
   double moment = pairs_->corrections().largest_moment;
-  if (shared()) ranks::take_largest(moment);
+  if (shared()) comm::allreduce_max(moment);
   k.hourglass.modulus = 0.25 * mu / moment;
   k.hourglass.stiffness = options_.hourglass_stiffness;
-  k.hourglass.stiffening = is_solid(state_.material) ? 0 : options_.hourglass_stiffening / mu;
+  k.hourglass.stiffening = is_hypoelastic(state_.material) ? 0 : options_.hourglass_stiffening / mu;
   // Never quite zero: the look-ahead state also supplies the rate of deformation for the energy balance.
   constexpr double least = 1e-6;
   k.hourglass.ahead = std::max(options_.hourglass_viscosity, least) * k.h_min / c;
@@ -160,7 +160,7 @@ bool JstBody::wanted(Field const& f) const {
   auto const among = [&](std::initializer_list<Field const*> fields) {
     return std::find(fields.begin(), fields.end(), &f) != fields.end();
   };
-  if (among({&fields_.last_F, &fields_.history})) return is_solid(state_.material);
+  if (among({&fields_.last_F, &fields_.history})) return is_hypoelastic(state_.material);
   if (among({&fields_.stage_position})) return displacement;
   if (among({&fields_.hourglass_force, &fields_.hourglass_stress, &fields_.viscous_work, &fields_.hourglass_energy}))
     return options_.hourglass();
@@ -228,7 +228,7 @@ void JstBody::allocate() {
 
 template <class Visit>
 void JstBody::each_seen(Visit const& f) const {
-  exec_host::for_each_in_set_up(own().last - own().first, [&](Index k) { f(own().first + k); });
+  exec_host::parallel_for(own().last - own().first, [&](Index k) { f(own().first + k); });
   if (!shared()) return;
   for (Index const i : halo_->received()) f(i);
 }
@@ -257,8 +257,8 @@ void JstBody::mark_images() {
 }
 
 /// Memory of the neighbour data of a sweep: arrays for lattices; records [X, values] for lists.
-JstBody::Gathered JstBody::gather(int values) const {
-  Gathered g;
+JstBody::NeighbourRecords JstBody::gather(int values) const {
+  NeighbourRecords g;
   auto const n = static_cast<std::ptrdiff_t>(all_slots());
   if (state_.regular) {
     // One lane of an entry has the neighbour, so the others are at most `lanes` from a slot of the body.
@@ -286,7 +286,7 @@ void JstBody::place_gathered() {
   bool const adjoint = options_.biharmonic == Biharmonic::adjoint;
   bool const stabilised = options_.biharmonic != Biharmonic::none;
   Index const n = order_.slots();
-  auto const place = [n](Field& f, Gathered& g, std::ptrdiff_t offset) {
+  auto const place = [n](Field& f, NeighbourRecords& g, std::ptrdiff_t offset) {
     f.place(g.memory.data(), g.component, g.particle, g.start + offset * g.component, n, &g.version);
   };
   bool const smoothed_J = options_.smoothed_volume();
@@ -320,7 +320,7 @@ void JstBody::place_gathered() {
 /// of `second` on.
 void JstBody::fill_adjoint(int first) {
   auto const& corrections = pairs_->corrections();
-  exec_host::for_each_in_set_up(own().last - own().first, [&](Index k) {
+  exec_host::parallel_for(own().last - own().first, [&](Index k) {
     Index const i = own().first + k;
     double* const at = state_.second.data + i * second_.particle;
     for (int c = 0; c < D_; ++c)
@@ -357,7 +357,7 @@ void JstBody::share_reference(int lanes) {
 template <class Visit>
 void JstBody::each_stored(int lanes, Visit const& visit) const {
   Range const stored = state_.regular ? Range{0, stored_slots_} : state_.slots;
-  exec_host::for_each_in_set_up(stored.last - stored.first, [&](Index k) {
+  exec_host::parallel_for(stored.last - stored.first, [&](Index k) {
     Index const to = stored.first + k;
     Index const i = state_.regular ? group_first_[static_cast<std::size_t>(to / lanes)] + to % lanes : to;
     if (i < order_.particles) visit(to, i);
@@ -366,7 +366,7 @@ void JstBody::each_stored(int lanes, Visit const& visit) const {
 
 void JstBody::fill_reference(int lanes) {
   bool const stages = wanted(fields_.F_star);
-  exec_host::for_each_in_set_up(state_.slots.last - state_.slots.first, [&](Index k) {
+  exec_host::parallel_for(state_.slots.last - state_.slots.first, [&](Index k) {
     Index const i = state_.slots.first + k;
     for (int c = 0; c < D_; ++c) {
       fields_.F.at(i, c * D_ + c) = 1;
@@ -377,7 +377,7 @@ void JstBody::fill_reference(int lanes) {
   static constexpr int packed[3][6] = {{0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
   each_stored(lanes, [&](Index to, Index i) {
     auto const slot = corrections.at(i);
-    fields_.V.at(to) = continued_volume(i);
+    fields_.V.at(to) = mirrored_volume(i);
     for (int c = 0; c < D_ * (D_ + 1) / 2; ++c)
       fields_.C.at(to, c) = corrections.C[slot][static_cast<std::size_t>(packed[D_ - 1][c])];
     for (int c = 0; c < D_; ++c) {
@@ -417,13 +417,13 @@ void JstBody::fill_evolved_geometry() {
 }
 
 /// Solids in rate form start free of stress where they are not deformed.
-void JstBody::fill_solid(Machine const& machine) {
+void JstBody::fill_solid(Backend const& backend) {
   with_solid(state_.material, [&](auto const& law) {
     for (Index i = state_.slots.first; i < state_.slots.last; ++i) {
       for (int c = 0; c < 9; ++c) fields_.last_F.at(i, c) = c % 4 == 0 ? 1 : 0;
       fields_.history.at(i, SolidFields::temperature) = law.initial_temperature();
     }
-    machine.commit_solid(state_, 0);
+    backend.commit_solid(state_, 0);
   });
 }
 
@@ -438,9 +438,9 @@ void JstBody::tell_once(FieldRef const& field, int first, int count) const {
 
 void JstBody::fill_filter() {
   std::vector<double> volumes(static_cast<std::size_t>(order_.slots()));
-  for (Index i = 0; i < order_.particles; ++i) volumes[static_cast<std::size_t>(i)] = continued_volume(i);
+  for (Index i = 0; i < order_.particles; ++i) volumes[static_cast<std::size_t>(i)] = mirrored_volume(i);
   ReferencePairs::FilterShare const share{
-      own(), [&](std::vector<double>& values) { tell_once({.data = values.data()}, 0, 1); }, ranks::take_largest};
+      own(), [&](std::vector<double>& values) { tell_once({.data = values.data()}, 0, 1); }, comm::allreduce_max};
   auto const filter = pairs_->make_filter(volumes, shared() ? &share : nullptr);
   for (Index i = own().first; i < own().last; ++i) {
     fields_.filter_scale.at(i) = filter.scale[static_cast<std::size_t>(i)];
@@ -448,10 +448,10 @@ void JstBody::fill_filter() {
   }
 }
 
-void JstBody::fill_initial(Assembly const& assembly, Machine const& machine) {
+void JstBody::fill_initial(Assembly const& assembly, Backend const& backend) {
   auto const& moved = assembly.initial_displacement;
   auto const& deformed = assembly.initial_deformation_gradient;
-  exec_host::for_each_in_set_up(own().last - own().first, [&](Index number) {
+  exec_host::parallel_for(own().last - own().first, [&](Index number) {
     Index const i = own().first + number;
     auto const at = static_cast<std::size_t>(id(i));
     for (int c = 0; c < D_; ++c) {
@@ -466,11 +466,11 @@ void JstBody::fill_initial(Assembly const& assembly, Machine const& machine) {
       for (int c = 0; c < D_ * D_; ++c)
         fields_.F.at(i, c) = deformed[static_cast<std::size_t>(id(i))][std::size_t{3} * (c / D_) + c % D_];
   } else if (!moved.empty() || !mixed) {
-    deform_to_positions(machine);
+    deform_to_positions(backend);
   }
 }
 
-void JstBody::deform_to_positions(Machine const& machine) {
+void JstBody::deform_to_positions(Backend const& backend) {
   Range const mine = state_.slots;
   std::vector<double> kept(static_cast<std::size_t>(mine.last - mine.first) * static_cast<std::size_t>(D_));
   bool const mixed = options_.variables != Variables::displacement;
@@ -484,7 +484,7 @@ void JstBody::deform_to_positions(Machine const& machine) {
   });
   Copies const* const copies = state_.u.copies;
   state_.u.copies = images_.copies({MirrorImages::Kind::position});  // present content of `u`
-  machine.update_deformation(state_);
+  backend.update_deformation(state_);
   state_.u.copies = copies;
   if (mixed) each([&](Index i, int c, double& value) { set(state_.u, i, c, value); });
   for (Index i = own().last; i < mine.last; ++i)
@@ -519,9 +519,9 @@ double JstBody::reach() const {
   return options_.kernel->support * h * spacing();
 }
 
-void JstBody::step(Machine const& machine, double time, double dt) {
+void JstBody::step(Backend const& backend, double time, double dt) {
   boundary_.begin_step(state_, time, dt);
-  machine.step(state_, dt);
+  backend.step(state_, dt);
   boundary_.end_step(state_);
 }
 

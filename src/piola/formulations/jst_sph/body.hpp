@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/domain/deferred_global_sum.hpp"
+#include "piola/domain/halo_plan.hpp"
 #include "piola/formulations/assembly.hpp"
+#include "piola/formulations/common/lattice_line_halo.hpp"
+#include "piola/formulations/common/mirror_images.hpp"
 #include "piola/formulations/formulation.hpp"
-#include "piola/formulations/jst_sph/boundary.hpp"
+#include "piola/formulations/jst_sph/boundary_conditions.hpp"
 #include "piola/formulations/jst_sph/fields.hpp"
 #include "piola/formulations/jst_sph/options.hpp"
 #include "piola/formulations/jst_sph/state.hpp"
-#include "piola/formulations/mirror_images.hpp"
-#include "piola/formulations/shared_lines.hpp"
 #include "piola/math/tensor.hpp"
 #include "piola/neighbours/reference_pairs.hpp"
-#include "piola/parallel/halo_plan.hpp"
-#include "piola/parallel/shared_total.hpp"
 #include <memory>
 #include <vector>
 
@@ -22,7 +22,7 @@ class JstBody {
  public:
   /// Keeps a reference to `set`, which must outlive the body. Throws InputError (too few neighbours). Collective.
   JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t body, Options const& options,
-          Machine const& machine);
+          Backend const& backend);
   JstBody(JstBody const&) = delete;
   JstBody& operator=(JstBody const&) = delete;
 
@@ -40,21 +40,23 @@ class JstBody {
   /// Slots of the local particles: all on one rank.
   Range own() const;
   /// Communication pattern of the body; a step has one or two right-hand sides.
-  Talk talk() const;
+  CommPattern comm_pattern() const;
   /// Lattice lines for observers if the body is distributed; else nullptr.
-  SharedLines* lines() const { return lines_.get(); }
+  LatticeLineHalo* lines() const { return lines_.get(); }
   /// Advances from `time` to time + dt, with supports and loads.
-  void step(Machine const& machine, double time, double dt);
+  void step(Backend const& backend, double time, double dt);
   /// Multiplies the velocities that are not prescribed, and adds the lost energy to the damping loss.
   void damp(double factor);
-  SharedTotal& external_work() { return external_work_; }  ///< of loads and of driven supports since the start [J]
-  SharedTotal const& external_work() const { return external_work_; }
+  DeferredGlobalSum& external_work() {
+    return external_work_;
+  }  ///< of loads and of driven supports since the start [J]
+  DeferredGlobalSum const& external_work() const { return external_work_; }
   double kinetic_energy() const;    ///< over all ranks [J]; collective
   double hourglass_energy() const;  ///< over all ranks, at the last observation [J]; collective
   double filtered_energy() const;   ///< over all ranks, of the filtered volume ratio if that has a viscous part [J];
                                     ///< collective
   /// The next time after `time` at which a support or a load ends.
-  double next_release(double time) const { return boundary_.next_release(time); }
+  double next_end_time(double time) const { return boundary_.next_end_time(time); }
   Boundary& boundary() { return boundary_; }
   Boundary const& boundary() const { return boundary_; }
 
@@ -70,7 +72,7 @@ class JstBody {
   /// Tributary volume in the body itself, and in the body continued by mirror planes.
   double volume(Index slot) const { return set_->volume[static_cast<std::size_t>(id(slot))]; }
 
-  double continued_volume(Index slot) const { return volume(slot) * images_.multiplicity(slot); }
+  double mirrored_volume(Index slot) const { return volume(slot) * images_.multiplicity(slot); }
 
   static double value(FieldRef const& f, Index slot, int c = 0) { return value_at(f, slot, c); }
   static void set(FieldRef const& f, Index slot, int c, double value) { value_at(f, slot, c) = value; }
@@ -98,21 +100,21 @@ class JstBody {
   };
   std::vector<std::vector<Told>> told() const;
   std::vector<Index> slots_read(int lanes, bool far) const;
-  void make_pairs(ParticleSet const& set, Machine const& machine);
+  void make_pairs(ParticleSet const& set, Backend const& backend);
   void take_tables();
   void allocate();
   /// Memory of fields that sweeps read together at neighbours.
-  struct Gathered {
+  struct NeighbourRecords {
     Memory memory;
     std::ptrdiff_t component = 0, particle = 1, start = 0;
     FieldVersion version;
   };
-  Gathered gather(int values) const;
+  NeighbourRecords gather(int values) const;
   void place_gathered();
   void fill_adjoint(int first);
   bool wanted(Field const& f) const;
   void fill_filter();
-  void fill_solid(Machine const& machine);
+  void fill_solid(Backend const& backend);
   void fill_corrected_kernel(int lanes);
   void fill_evolved_geometry();
   /// Calls f(place, slot) for every stored place of a reference field that holds a particle.
@@ -120,8 +122,8 @@ class JstBody {
   void each_stored(int lanes, Visit const& visit) const;
   void share_reference(int lanes);
   void fill_reference(int lanes);
-  void fill_initial(Assembly const& assembly, Machine const& machine);
-  void deform_to_positions(Machine const& machine);
+  void fill_initial(Assembly const& assembly, Backend const& backend);
+  void deform_to_positions(Backend const& backend);
   void set_constants(ParticleSet const& set, MaterialParameters const& material);
   void set_hourglass(double mu);
   /// Whether the first sweep also reads positions, for the Laplacian of the motion without its rigid part.
@@ -143,17 +145,17 @@ class JstBody {
   std::unique_ptr<ReferencePairs> pairs_;
   Fields fields_;
   Field weight_{"QuadratureWeight", "m3", 1, Role::reference};  ///< with mirror planes
-  Gathered first_, second_, ahead_, kernel_;
+  NeighbourRecords first_, second_, ahead_, kernel_;
   std::vector<std::int32_t> group_;  // regular bodies: index of the stored reference data of a group of lanes
   Index stored_slots_ = 0;
   std::vector<Index> group_first_;  // per stored group: first slot
   Boundary boundary_;
   std::vector<double> partial_;
-  SharedTotal external_work_;
+  DeferredGlobalSum external_work_;
   FailureSlot failure_;
   BodyState state_;
   std::unique_ptr<HaloPlan> halo_;  ///< nullptr on one rank
-  std::unique_ptr<SharedLines> lines_;
+  std::unique_ptr<LatticeLineHalo> lines_;
 };
 
 }  // namespace piola::jst_sph

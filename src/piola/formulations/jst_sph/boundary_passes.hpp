@@ -4,7 +4,7 @@
 #include "piola/mechanics/boundary_passes.hpp"
 
 /// Passes for supported and loaded particles, in addition to those of mechanics/. Theory: docs/theory/boundaries.md.
-namespace piola::jst_sph::inline PIOLA_MACHINE {
+namespace piola::jst_sph::inline PIOLA_BACKEND {
 
 /// Imposes the prescribed velocity of a particle; with multipliers its acceleration (step 8 of Algorithm 1 for rates),
 /// as they then correct the velocity.
@@ -14,12 +14,12 @@ namespace piola::jst_sph::inline PIOLA_MACHINE {
 template <int D>
 struct HoldDirections {
   StageUpdate stage;
-  HeldDirection* held;
+  PrescribedDirection* held;
   View v, v_n, x;
   WriteView v_out, x_out;
 
   PIOLA_FN void operator()(Index k) const {
-    HeldDirection& h = held[k];
+    PrescribedDirection& h = held[k];
     double const now = along<D>(v, h), start = along<D>(v_n, h);
     double const speed = h.multiplied ? start + (h.speed - h.start_speed) : h.speed, change = speed - now;
     set_along<D>(v, v_out, h, now, speed);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/parallel.hpp"
-#include "piola/exec/view.hpp"
+#include "piola/domain/halo.hpp"
+#include "piola/exec/device_loops.hpp"
+#include "piola/exec/field_view.hpp"
 #include "piola/formulations/jst_sph/state.hpp"
 #include "piola/neighbours/loaders.hpp"
-#include "piola/parallel/halo.hpp"
 
 /// Filtered volumetric energy: sweeps that read only the kernel. Derivation: docs/theory/jst-sph-filtered.md.
-namespace piola::jst_sph::inline PIOLA_MACHINE {
+namespace piola::jst_sph::inline PIOLA_BACKEND {
 
 /// sum_{b != a} W_ab f_b, or sum_{b != a} W_ab (f_b - f_a), of N values.
 template <int N, bool Difference>

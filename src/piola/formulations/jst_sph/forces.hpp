@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/domain/fused_allreduce.hpp"
 #include "piola/formulations/jst_sph/passes.hpp"
-#include "piola/parallel/reduce.hpp"
 
-namespace piola::jst_sph::inline PIOLA_MACHINE {
+namespace piola::jst_sph::inline PIOLA_BACKEND {
 
 /// Sums of a body for mechanics/rigid_rate.hpp: arms x, and a rate with its moments.
 template <int D, class At, int N>
@@ -43,7 +43,7 @@ class Forces {
   /// `time`: duration of these forces for the energy balance [s]. In the last stage of a step the largest value of the
   /// field `ended`, the wave speed, and the first failure are reduced over ranks.
   StageBalance operator()(double time, FieldRef const* ended) {
-    Beside beside;
+    FusedReductions beside;
     if (ended != nullptr && !b_.trial) {
       b_.largest_wave_speed = largest_wave_speed_of(b_, *ended);
       beside = {&b_.largest_wave_speed, b_.failure};
@@ -53,7 +53,7 @@ class Forces {
 
  private:
   template <int Smoothed>
-  StageBalance sum(double time, Beside const& beside) {
+  StageBalance sum(double time, FusedReductions const& beside) {
     switch (b_.constants.biharmonic) {
       case Biharmonic::adjoint: return sweep<Biharmonic::adjoint, Smoothed>(time, beside);
       case Biharmonic::literal: return sweep<Biharmonic::literal, Smoothed>(time, beside);
@@ -62,7 +62,7 @@ class Forces {
   }
 
   template <Biharmonic B, int Smoothed>
-  StageBalance sweep(double time, Beside const& beside) {
+  StageBalance sweep(double time, FusedReductions const& beside) {
     SumForces<D, B, Smoothed, Loader> const pass{
         loader_,
         {read_neighbours(b_.second), read_reference(b_.alpha), read_reference(b_.beta)},

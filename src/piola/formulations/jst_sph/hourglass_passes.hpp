@@ -4,7 +4,7 @@
 
 /// Passes of the conservative scheme: an energy for the part of a deformation that gradients do not see, and its
 /// viscous part. Derivation: docs/theory/jst-sph-conservative.md.
-namespace piola::jst_sph::inline PIOLA_MACHINE {
+namespace piola::jst_sph::inline PIOLA_BACKEND {
 
 /// Divisor for empty slots: large enough to avoid overflow.
 inline constexpr double no_volume = 1e-200;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/multipliers.hpp"
+#include "piola/domain/deferred_global_sum.hpp"
+#include "piola/domain/slot_collectives.hpp"
 #include "piola/math/solve.hpp"
 #include "piola/mechanics/constraint_matrix.hpp"
 #include "piola/mechanics/prescribed.hpp"
 #include "piola/neighbours/cell_grid.hpp"
-#include "piola/parallel/own_slots.hpp"
-#include "piola/parallel/shared_total.hpp"
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -63,13 +63,13 @@ std::vector<NearParticle> interpolation(Cloud const& cloud, CellGrid const& grid
 
 }  // namespace
 
-Multipliers::Multipliers(std::span<HeldDirection const> held, Cloud const& cloud) : D_(cloud.dimension) {
+Multipliers::Multipliers(std::span<PrescribedDirection const> held, Cloud const& cloud) : D_(cloud.dimension) {
   find_weights(held, cloud);
   find_owners(held);
   matrix_ = constraint_matrix(rows_, weights_, slots_.size(), [&](std::size_t a) { return volume_[a]; });
 }
 
-void Multipliers::find_owners(std::span<HeldDirection const> held) {
+void Multipliers::find_owners(std::span<PrescribedDirection const> held) {
   owner_.assign(slots_.size(), 0);
   std::vector<double> largest(slots_.size(), -1);
   for (Row const& row : rows_) {
@@ -84,7 +84,7 @@ void Multipliers::find_owners(std::span<HeldDirection const> held) {
   }
 }
 
-void Multipliers::find_weights(std::span<HeldDirection const> held, Cloud const& cloud) {
+void Multipliers::find_weights(std::span<PrescribedDirection const> held, Cloud const& cloud) {
   // Rows with common particles should be near each other in the matrix: axis by axis, then along the body.
   std::vector<std::size_t> order(held.size());
   for (std::size_t k = 0; k < held.size(); ++k) order[k] = k;
@@ -95,7 +95,7 @@ void Multipliers::find_weights(std::span<HeldDirection const> held, Cloud const&
   CellGrid const grid(cloud.X, cloud.kernel->support * cloud.h);
   std::map<Index, std::size_t> known;
   for (auto const k : order) {
-    HeldDirection const& h = held[k];
+    PrescribedDirection const& h = held[k];
     auto const first = weights_.size();
     for (auto const& p : interpolation(cloud, grid, h.slot)) {
       auto const [at, is_new] = known.try_emplace(p.slot, slots_.size());
@@ -184,7 +184,7 @@ void Multipliers::correct(std::vector<Point> const& v, std::vector<double> const
 
 /// On ranks all have the motion of all particles within reach, and then solve alike.
 void Multipliers::complete(BodyState const& body, bool kick, bool stage) const {
-  auto const merge = [&](FieldRef const& field) { merge_slots(field, body.slots, slots_, D_); };
+  auto const merge = [&](FieldRef const& field) { allgather_selected_slots(field, body.slots, slots_, D_); };
   merge(body.x);
   merge(body.v);
   if (stage) merge(body.v_n);
@@ -208,13 +208,13 @@ void Multipliers::enforce(BodyState& body, MultiplierCall const& call) {
   }
   std::vector<double> wanted;
   for (auto const& row : rows_) {
-    HeldDirection const& h = body.held[row.held];
+    PrescribedDirection const& h = body.held[row.held];
     wanted.push_back(kick ? 0.5 * (h.start_speed + h.speed) : h.speed);
   }
   set_modes(x);
   correct(v, wanted);
   std::vector<ImpulseSum> impulses(impulses_.size());
-  exec::ExactSum work;
+  exec::ReproducibleSum work;
   double const share = stage ? 0.5 : 1.0;  // of a change of v* in that of v^(n+1)
   for (std::size_t a = 0; a < slots_.size(); ++a) {
     Point impulse = change_[a];

@@ -3,7 +3,7 @@
 #include "piola/formulations/jst_sph/state.hpp"
 #include "piola/kernels/registry.hpp"
 #include "piola/math/envelope_cholesky.hpp"
-#include "piola/mechanics/actions.hpp"
+#include "piola/mechanics/resultants.hpp"
 #include <array>
 #include <span>
 #include <vector>
@@ -26,14 +26,14 @@ struct Cloud {
 /// with w_a(X_B) the linearly corrected kernel. Theory: docs/theory/boundaries.md.
 class Multipliers {
  public:
-  Multipliers(std::span<HeldDirection const> held, Cloud const& cloud);
+  Multipliers(std::span<PrescribedDirection const> held, Cloud const& cloud);
 
   /// Corrects the velocity of the body, or the acceleration that leads to it. Collective on a distributed body.
   void enforce(BodyState& body, MultiplierCall const& call);
   /// Impulses of the corrections since their last reset, by support; those of a particle count for the support of the
   /// held particle with the largest weight there. Their sum vanishes unless the rows prescribe a rigid motion.
   std::vector<Impulse> const& impulses() const { return impulses_; }
-  void forget_impulses() { impulses_.assign(impulses_.size(), {}); }
+  void reset_impulses() { impulses_.assign(impulses_.size(), {}); }
   std::size_t bytes() const;
 
  private:
@@ -48,9 +48,9 @@ class Multipliers {
     Point direction;
     std::size_t first, last;  ///< indices in weights_
   };
-  void find_weights(std::span<HeldDirection const> held, Cloud const& cloud);
+  void find_weights(std::span<PrescribedDirection const> held, Cloud const& cloud);
   void set_modes(std::vector<Point> const& x);
-  void find_owners(std::span<HeldDirection const> held);
+  void find_owners(std::span<PrescribedDirection const> held);
   void complete(BodyState const& body, bool kick, bool stage) const;
   void correct(std::vector<Point> const& v, std::vector<double> const& wanted);
 

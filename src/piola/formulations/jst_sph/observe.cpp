@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/observe.hpp"
-#include "piola/formulations/observed.hpp"
-#include "piola/formulations/sample_own.hpp"
-#include "piola/materials/solids.hpp"
-#include "piola/parallel/ranks.hpp"
+#include "piola/domain/communicator.hpp"
+#include "piola/formulations/common/output_fields.hpp"
+#include "piola/formulations/common/sample_local.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
 #include <array>
 #include <cmath>
 
@@ -87,7 +87,7 @@ double stored_energy(JstBody const& body, SolidState const& law, Mat<3> const&, 
 template <class F>
 void with_observed_law(MaterialParameters const& material, F const& f) {
   with_law(material, f);
-  if (is_solid(material)) with_any_law(material, [&](auto const& law) { f(SolidState{law.rho0}); });
+  if (is_hypoelastic(material)) with_any_law(material, [&](auto const& law) { f(SolidState{law.rho0}); });
 }
 
 /// det F minus the volume ratio that the volumetric energy sees, where that is another one.
@@ -100,11 +100,11 @@ double volume_mismatch(JstBody const& body, double J, Index i) {
 
 void observe(JstBody const& body, JstObservation& o) {
   auto& d = o.totals;
-  SharedLines* const lines = body.lines();
+  LatticeLineHalo* const lines = body.lines();
   std::vector<double> pressure(lines != nullptr ? 0 : static_cast<std::size_t>(body.particles()));
-  bool const solid = is_solid(body.state().material);
-  exec::ExactSums<1> strain;
-  o.open_body(body.body().name);
+  bool const solid = is_hypoelastic(body.state().material);
+  exec::ReproducibleSums<1> strain;
+  o.begin_body(body.body().name);
   with_observed_law(body.state().material, [&](auto const& law) {
     for (Index i = body.own().first; i < body.own().last; ++i) {
       Mat<3> const F = body.F(i);
@@ -119,7 +119,7 @@ void observe(JstBody const& body, JstObservation& o) {
       o.add_motion(body.x(i), body.v(i), V * law.rho0);
     }
   });
-  if (body.shared()) ranks::add(strain);
+  if (body.shared()) comm::allreduce_sum(strain);
   double const hourglass_energy = body.hourglass_energy();
   o.add_strain_energy(strain.value() + hourglass_energy);
   o.hourglass_energy += hourglass_energy;
@@ -136,10 +136,10 @@ void observe(JstBody const& body, JstObservation& o) {
 }
 
 Diagnostics finish(JstObservation o) {
-  if (ranks::several()) {
+  if (comm::is_parallel()) {
     o.share();
-    ranks::add(o.mismatch_square_and_plastic_work);
-    ranks::take_largest(o.mismatch_max);
+    comm::allreduce_sum(o.mismatch_square_and_plastic_work);
+    comm::allreduce_max(o.mismatch_max);
   }
   Diagnostics d = o.finish();
   d.more = {{"volume_mismatch_rms", std::sqrt(o.mismatch_square_and_plastic_work.value(0) / o.volume())},
@@ -172,8 +172,8 @@ constexpr std::array<std::string_view, 18> offered{"Displacement",
                                                    "InternalEnergy"};
 constexpr std::size_t of_every_law = 14;  ///< the others belong to solids in rate form
 
-ObservedParticle motion_of(JstBody const& body, Index i) {
-  ObservedParticle p;
+ParticleOutput motion_of(JstBody const& body, Index i) {
+  ParticleOutput p;
   p.id = static_cast<double>(body.id(i));
   p.x = body.x(i);
   p.v = body.v(i);
@@ -182,7 +182,7 @@ ObservedParticle motion_of(JstBody const& body, Index i) {
   return p;
 }
 
-void add_history(JstBody const& body, Index i, ObservedParticle& p) {
+void add_history(JstBody const& body, Index i, ParticleOutput& p) {
   p.plastic_strain = history(body, i, SolidFields::plastic_strain);
   p.damage = history(body, i, SolidFields::damage);
   p.temperature = history(body, i, SolidFields::temperature);
@@ -191,7 +191,7 @@ void add_history(JstBody const& body, Index i, ObservedParticle& p) {
 
 }  // namespace
 
-std::vector<FieldInfo> observed_fields(bool solids) {
+std::vector<FieldInfo> output_field_names(bool solids) {
   return field_infos(std::span(offered).first(solids ? offered.size() : of_every_law));
 }
 
@@ -207,7 +207,7 @@ void observe_each(JstBody const& body, int body_number, std::string_view field, 
   }
   with_observed_law(body.state().material, [&](auto const& law) {
     for (Index i = own.first; i < own.last; ++i) {
-      ObservedParticle p = motion_of(body, i);
+      ParticleOutput p = motion_of(body, i);
       p.body = body_number;
       p.neighbours = body.pairs().corrections().neighbours_of(i);
       p.F = body.F(i);
@@ -217,7 +217,7 @@ void observe_each(JstBody const& body, int body_number, std::string_view field, 
       p.pressure = observed_pressure(body, law, p.F, i);
       p.inertia = law.rho0;
       p.density = law.rho0 / p.J;
-      if (is_solid(body.state().material)) add_history(body, i, p);
+      if (is_hypoelastic(body.state().material)) add_history(body, i, p);
       f(i, p);
     }
   });
@@ -225,14 +225,14 @@ void observe_each(JstBody const& body, int body_number, std::string_view field, 
 
 }  // namespace
 
-void sample_own(JstBody const& body, int body_number, std::string_view field, std::span<double> values) {
-  piola::sample_own(body, find_observed(field, offered), values,
-                    [&](auto const& f) { observe_each(body, body_number, field, f); });
+void sample_local_slots(JstBody const& body, int body_number, std::string_view field, std::span<double> values) {
+  piola::sample_local_slots(body, find_output_field(field, offered), values,
+                            [&](auto const& f) { observe_each(body, body_number, field, f); });
 }
 
 void sample(JstBody const& body, int body_number, std::string_view field, std::span<double> values) {
-  sample_for_first(body, find_observed(field, offered), values,
-                   [&](auto const& f) { observe_each(body, body_number, field, f); });
+  gather_field_on_root(body, find_output_field(field, offered), values,
+                       [&](auto const& f) { observe_each(body, body_number, field, f); });
 }
 
 }  // namespace piola::jst_sph

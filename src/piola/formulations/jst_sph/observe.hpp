@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/formulations/common/diagnostics_sum.hpp"
 #include "piola/formulations/formulation.hpp"
 #include "piola/formulations/jst_sph/body.hpp"
-#include "piola/formulations/observation.hpp"
 
 /// Observed quantities of a JST-SPH state; read-only.
 namespace piola::jst_sph {
 
-struct JstObservation : Observation {
+struct JstObservation : DiagnosticsSum {
   /// sum V (det F - volume ratio of the volumetric energy)^2; [J]
-  exec::ExactSums<2> mismatch_square_and_plastic_work;
+  exec::ReproducibleSums<2> mismatch_square_and_plastic_work;
   double mismatch_max = 0;
   double hourglass_energy = 0;  ///< [J]
 };
@@ -21,12 +21,12 @@ void observe(JstBody const& body, JstObservation& observation);
 Diagnostics finish(JstObservation observation);
 
 /// The fields of JST-SPH for frames and probes; `solids`: with those of solids in rate form.
-std::vector<FieldInfo> observed_fields(bool solids);
+std::vector<FieldInfo> output_field_names(bool solids);
 
 /// Gathers one field of one body on rank 0, values[id * components + c]. Collective if the body is distributed. Throws
 /// std::invalid_argument for an unknown field.
 void sample(JstBody const& body, int body_number, std::string_view field, std::span<double> values);
 /// As sample(), for the local particles, slot by slot.
-void sample_own(JstBody const& body, int body_number, std::string_view field, std::span<double> values);
+void sample_local_slots(JstBody const& body, int body_number, std::string_view field, std::span<double> values);
 
 }  // namespace piola::jst_sph

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/options.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
-#include "piola/formulations/usable_laws.hpp"
+#include "piola/formulations/common/supported_laws.hpp"
 #include "piola/kernels/list.hpp"
-#include "piola/materials/solids.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -113,8 +113,8 @@ FormulationInfo info() {
       total_lagrangian_laws,
       diagnostics};
   info.cell_volumes = true;
-  info.pushable = true;
-  info.on_ranks = info.observed_by_share = true;
+  info.can_be_coupled = true;
+  info.on_ranks = info.observes_locally = true;
   return info;
 }
 
@@ -201,7 +201,7 @@ void check_solid(Options const& o, MaterialParameters const& material) {
     throw InputError(
         "material: eos = \"jwl\" is an explosive (allowed here: the other words of eos) - take the "
         "formulation adaptle");
-  if (!is_solid(material) || o.variables == Variables::pF) return;
+  if (!is_hypoelastic(material) || o.variables == Variables::pF) return;
   throw InputError(fmt::format(
       "formulation: variables other than \"pF\" need a hyperelastic law, and {} is a solid in rate form - leave "
       "variables out or take a hyperelastic law",
@@ -216,7 +216,7 @@ Options read_options(FormulationSpec const& spec, MaterialParameters const& mate
   bool const displacement = word(spec, "variables") == "displacement";
   bool const conservative = scheme == "conservative" && !displacement;
   // Solids in rate form keep the biharmonic term: an energy of the whole deformation would also resist plastic flow.
-  bool const hourglass = conservative && !is_solid(material);
+  bool const hourglass = conservative && !is_hypoelastic(material);
   bool const paper = scheme == "paper", filtered = scheme == "filtered" || scheme == "conservative";
   o.variables = choice_of<Variables>(spec, choices, "variables");
   o.gradient = choice_of<GradientForm>(spec, choices, "gradient");

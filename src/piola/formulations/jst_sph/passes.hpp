@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/parallel.hpp"
-#include "piola/exec/view.hpp"
+#include "piola/exec/device_loops.hpp"
+#include "piola/exec/field_view.hpp"
 #include "piola/formulations/jst_sph/state.hpp"
 #include "piola/math/embedding.hpp"
 #include "piola/math/stretch.hpp"
@@ -9,9 +9,9 @@
 #include "piola/neighbours/loaders.hpp"
 
 /// Passes of JST-SPH: operations on one particle. Equation numbers: Lee, Gil, Greto, Kulasegaram, Bonet (2016), as
-/// corrected in docs/theory/jst-sph.md. Notation of neighbours/tables.hpp: r = X_b - X_a, raw gradient s r, Laplacian
-/// weight l.
-namespace piola::jst_sph::inline PIOLA_MACHINE {
+/// corrected in docs/theory/jst-sph.md. Notation of neighbours/pair_table_views.hpp: r = X_b - X_a, raw gradient s r,
+/// Laplacian weight l.
+namespace piola::jst_sph::inline PIOLA_BACKEND {
 
 /// First sums over neighbours: raw velocity gradient and first Laplacians.
 ///   sum_b s (u_b - u_a) (x) r            (raw form of eqs. 21, 33a, 34)

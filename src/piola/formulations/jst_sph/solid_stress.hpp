@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/parallel.hpp"
-#include "piola/exec/view.hpp"
+#include "piola/exec/device_loops.hpp"
+#include "piola/exec/field_view.hpp"
 #include "piola/formulations/jst_sph/state.hpp"
 #include "piola/materials/finite_increment.hpp"
-#include "piola/materials/solids.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
 #include "piola/math/embedding.hpp"
 
 /// Solids in rate form under a total-Lagrangian scheme: stress is a function of the state after the last step and of
 /// the present deformation gradient. Theory: docs/theory/jst-sph.md, "Solids in rate form".
-namespace piola::jst_sph::inline PIOLA_MACHINE {
+namespace piola::jst_sph::inline PIOLA_BACKEND {
 
 /// State of a particle of a solid at the end of the last step. `pressure` [Pa]: positive in compression; `energy`:
 /// specific internal energy [J/kg].

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/solver.hpp"
-#include "piola/base/problems.hpp"
-#include "piola/formulations/bodies.hpp"
-#include "piola/formulations/checkpoint.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/domain/communicator.hpp"
+#include "piola/domain/slot_collectives.hpp"
+#include "piola/formulations/common/body_resultants.hpp"
+#include "piola/formulations/common/field_checkpoint.hpp"
+#include "piola/formulations/common/sample_local.hpp"
+#include "piola/formulations/common/slots_by_id.hpp"
 #include "piola/formulations/jst_sph/body.hpp"
 #include "piola/formulations/jst_sph/observe.hpp"
 #include "piola/formulations/jst_sph/stability.hpp"
-#include "piola/formulations/sample_own.hpp"
-#include "piola/formulations/slots_by_id.hpp"
-#include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/prescribed.hpp"
-#include "piola/parallel/own_slots.hpp"
-#include "piola/parallel/ranks.hpp"
+#include "piola/mechanics/resultants.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -31,27 +31,27 @@ class Solver final : public Formulation {
  public:
   explicit Solver(Assembly const& assembly)
       : set_(assembly.particles),
-        machine_(&choose_machine(assembly.machine.c_str())),
+        backend_(&choose_backend(assembly.backend.c_str())),
         actions_(assembly.supports, assembly.loads, assembly.rigid_shapes) {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
       Options const options = read_options(assembly.formulations[k], assembly.materials[k], assembly.cfl,
                                            assembly.particles.bodies[k].regular);
-      bodies_.push_back(std::make_unique<JstBody>(assembly, set_, k, options, *machine_));
+      bodies_.push_back(std::make_unique<JstBody>(assembly, set_, k, options, *backend_));
       alpha_.push_back(options.cfl);
-      monitors_.push_back(options.cfl > 0 ? nullptr : std::make_unique<StabilityMonitor>(*bodies_.back(), *machine_));
+      monitors_.push_back(options.cfl > 0 ? nullptr : std::make_unique<StabilityMonitor>(*bodies_.back(), *backend_));
     }
     find_largest_speeds();
     if (assembly.pushed) slots_ = SlotsById(set_, bodies_);
   }
 
   double stable_time_step() const override {
-    double dt = settled_time_step();
+    double dt = steady_time_step();
     bool const monitored = std::any_of(monitors_.begin(), monitors_.end(), [](auto const& m) { return m != nullptr; });
     if (monitored) dt = std::min(dt, last_step_ > 0 ? growth_from(last_step_ / dt) * last_step_ : first_share * dt);
-    return up_to_release_of(bodies_, time_, dt);
+    return clip_step_to_end_time_of(bodies_, time_, dt);
   }
 
-  double settled_time_step() const override {
+  double steady_time_step() const override {
     double dt = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
       double const c = largest_speed_[k], h = bodies_[k]->state().constants.h_min;
@@ -61,9 +61,9 @@ class Solver final : public Formulation {
     return dt;
   }
 
-  StepRule step_rule() const override {
-    StepRule rule;
-    rule.settled = rule.first = settled_time_step();
+  StepEstimate step_estimate_of_run() const override {
+    StepEstimate rule;
+    rule.settled = rule.first = steady_time_step();
     if (monitors_.front() == nullptr) {
       rule.limit = fmt::format("waves: run.cfl h / c with run.cfl = {}", alpha_.front());
       return rule;
@@ -81,14 +81,14 @@ class Solver final : public Formulation {
 
   void step(double time, double dt) override {
     actions_.begin_step(bodies_, dt);
-    for (auto const& body : bodies_) body->step(*machine_, time, dt);
+    for (auto const& body : bodies_) body->step(*backend_, time, dt);
     actions_.end_step(bodies_);
     time_ = time + dt;
     last_step_ = dt;
     for (std::size_t k = 0; k < bodies_.size(); ++k) largest_speed_[k] = bodies_[k]->state().largest_wave_speed;
     for (std::size_t k = 0; k < monitors_.size(); ++k)
       if (monitors_[k]) monitors_[k]->update(largest_speed_[k]);
-    if (ranks::several()) share_failures();
+    if (comm::is_parallel()) share_failures();
   }
 
   void damp(double factor) override {
@@ -96,17 +96,17 @@ class Solver final : public Formulation {
   }
   void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                    std::span<std::array<double, 3>> v) const override {
-    read_motion_of(bodies_, slots_, ids, x, v);
+    add_coupled_particles(bodies_, slots_, ids, x, v);
   }
   void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
     read_masses_of(bodies_, slots_, ids, m,
                    [](auto const& body, Index slot) { return body.volume(slot) * body.state().constants.rho0; });
   }
-  void push(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
-    push_all(bodies_, set_.dimension, slots_, ids, change);
+  void add_velocities(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
+    add_velocities_of(bodies_, set_.dimension, slots_, ids, change);
   }
   double kinetic_energy() const override {
-    return sum_of(bodies_, [](auto const& body) { return body.kinetic_energy(); });
+    return parallel_sum(bodies_, [](auto const& body) { return body.kinetic_energy(); });
   }
 
   std::optional<Failure> failure() const override;
@@ -122,8 +122,8 @@ class Solver final : public Formulation {
   }
 
   std::vector<FieldInfo> fields() const override {
-    return observed_fields(std::any_of(bodies_.begin(), bodies_.end(),
-                                       [](auto const& body) { return body->state().history.data != nullptr; }));
+    return output_field_names(std::any_of(bodies_.begin(), bodies_.end(),
+                                          [](auto const& body) { return body->state().history.data != nullptr; }));
   }
   void sample(std::string_view field, std::span<double> values) const override {
     int number = 0;
@@ -133,11 +133,11 @@ class Solver final : public Formulation {
     }
   }
 
-  std::optional<std::vector<std::int64_t>> owned() const override { return ids_of_own(bodies_); }
-  void sample_owned(std::string_view field, std::span<double> values) const override {
-    sample_of_own(*this, bodies_, field, values, [&](auto const& body, int number, std::span<double> own) {
+  std::optional<std::vector<std::int64_t>> local_particles() const override { return local_ids(bodies_); }
+  void sample_local(std::string_view field, std::span<double> values) const override {
+    sample_local_bodies(*this, bodies_, field, values, [&](auto const& body, int number, std::span<double> own) {
       refresh(body);
-      sample_own(body, number, field, own);
+      sample_local_slots(body, number, field, own);
     });
   }
 
@@ -145,8 +145,8 @@ class Solver final : public Formulation {
   void load(StateReader& reader) override;
 
   int stages_per_step() const override { return bodies_.front()->options().integrator == Integrator::verlet ? 1 : 2; }
-  std::optional<Talk> talk(std::size_t body) const override {
-    Talk talk = bodies_[body]->talk();
+  std::optional<CommPattern> comm_pattern(std::size_t body) const override {
+    CommPattern talk = bodies_[body]->comm_pattern();
     if (monitors_[body]) talk.collectives += StabilityMonitor::collectives_per_step;
     return talk;
   }
@@ -166,14 +166,14 @@ class Solver final : public Formulation {
   }
   void find_largest_speeds() {
     largest_speed_.clear();
-    for (auto const& body : bodies_) largest_speed_.push_back(machine_->largest_wave_speed(body->state()));
+    for (auto const& body : bodies_) largest_speed_.push_back(backend_->largest_wave_speed(body->state()));
   }
   /// Updates the data for observers; the state for steps is unchanged. Displacement variables keep F of the last stage;
   /// observers need that of x. Collective if the body is distributed.
   void refresh(JstBody const& body) const {
     BodyState seen = body.state();
-    if (body.options().variables == Variables::displacement) machine_->update_deformation(seen);
-    if (body.options().hourglass()) machine_->observe_energy(seen);
+    if (body.options().variables == Variables::displacement) backend_->update_deformation(seen);
+    if (body.options().hourglass()) backend_->observe_energy(seen);
   }
   static constexpr int no_wave_speed = 3;  ///< a code of FailureSlot
   static FailureSlot failure_of(JstBody const& body, double largest_speed);
@@ -186,7 +186,7 @@ class Solver final : public Formulation {
 
   ParticleSet set_;
   SlotsById slots_;
-  Machine const* machine_;
+  Backend const* backend_;
   ActionsOnBodies actions_;
   std::vector<std::unique_ptr<JstBody>> bodies_;
   std::vector<double> alpha_;                                ///< of eq. (44), per body; 0: from the monitor
@@ -269,12 +269,12 @@ void Solver::save(StateWriter& writer) const {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     JstBody const& body = *bodies_[k];
     each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
-      save_own(writer, name, body, field, components);
+      save_local(writer, name, body, field, components);
     });
     auto const& totals = body.state().totals;
-    std::array const books{totals.stabilisation_loss, totals.projection_loss, body.external_work().over_ranks(),
-                           totals.damping_loss, totals.viscous_work};
-    writer.put(fmt::format("body{}_energy_books", k), books);
+    std::array const energy_totals{totals.stabilisation_loss, totals.projection_loss, body.external_work().over_ranks(),
+                                   totals.damping_loss, totals.viscous_work};
+    writer.put(fmt::format("body{}_energy_books", k), energy_totals);
     writer.put(fmt::format("body{}_supports", k), body.boundary().state());
     if (monitors_[k]) writer.put(fmt::format("body{}_step_limit", k), monitors_[k]->state());
   }
@@ -296,15 +296,15 @@ void Solver::tell_failures() {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     JstBody const& body = *bodies_[k];
     FailureSlot found = failure_of(body, largest_speed_[k]);
-    share_failure(found);
+    allreduce_first_failure(found);
     if (found.index >= body.particles()) continue;
     *body.state().failure = found;
     each_evolved(body, k, [&](std::string const&, FieldRef const& field, int components) {
-      merge_slots(field, body.own(), std::array{found.index}, components);
+      allgather_selected_slots(field, body.own(), std::array{found.index}, components);
     });
     failed_neighbours_[k] = neighbours_of(body, found.index);
   }
-  ranks::merge(failed_neighbours_);
+  comm::allreduce_or(failed_neighbours_);
 }
 
 /// 0 for remote particles, whose lists only their rank has.
@@ -318,7 +318,8 @@ void Solver::share_failures() {
   bool failed = false;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     FailureSlot& slot = *bodies_[k]->state().failure;
-    if (smooths_volume(bodies_[k]->state().constants)) share_failure(slot);  // others are replicated with the forces
+    if (smooths_volume(bodies_[k]->state().constants))
+      allreduce_first_failure(slot);  // others are replicated with the forces
     failed = failed || slot.index < bodies_[k]->particles() || std::isnan(largest_speed_[k]);
   }
   if (failed) tell_failures();
@@ -328,17 +329,17 @@ void Solver::load(StateReader& reader) {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     JstBody& body = *bodies_[k];
     each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
-      load_own(reader, name, body, field, components);
+      load_local(reader, name, body, field, components);
     });
     place_stages(body);
-    std::array<double, 5> books{};
-    reader.get(fmt::format("body{}_energy_books", k), books);
-    body.state().totals = {books[0], books[1], books[3], books[4]};
-    body.external_work().set(books[2]);
+    std::array<double, 5> energy_totals{};
+    reader.get(fmt::format("body{}_energy_books", k), energy_totals);
+    body.state().totals = {energy_totals[0], energy_totals[1], energy_totals[3], energy_totals[4]};
+    body.external_work().set(energy_totals[2]);
     load_part(reader, fmt::format("body{}_supports", k), body.boundary());
     if (!monitors_[k]) continue;
     std::vector<double> monitor = monitors_[k]->state();
-    reader.get_to_deal(fmt::format("body{}_step_limit", k), monitor);
+    reader.get_on_root(fmt::format("body{}_step_limit", k), monitor);
     monitors_[k]->restore(monitor);
   }
   std::array<double, 2> clock{};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/stability.hpp"
-#include "piola/exec/set_up_loop.hpp"
-#include "piola/formulations/own_mode.hpp"
+#include "piola/domain/communicator.hpp"
+#include "piola/exec/host_loops.hpp"
+#include "piola/formulations/common/distributed_mode.hpp"
 #include "piola/materials/laws.hpp"
-#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -65,14 +65,14 @@ class Kept {
   std::vector<double> values_of(FieldRef const& field, int components) const {
     std::vector<double> values(static_cast<std::size_t>(slots_.last - slots_.first) *
                                static_cast<std::size_t>(components));
-    exec_host::for_each_in_set_up(slots_.last - slots_.first, [&](Index k) {
+    exec_host::parallel_for(slots_.last - slots_.first, [&](Index k) {
       double* const to = &values[static_cast<std::size_t>(k) * static_cast<std::size_t>(components)];
       for (int c = 0; c < components; ++c) to[c] = JstBody::value(field, slots_.first + k, c);
     });
     return values;
   }
   void put(FieldRef const& field, int components, std::vector<double> const& values) const {
-    exec_host::for_each_in_set_up(slots_.last - slots_.first, [&](Index k) {
+    exec_host::parallel_for(slots_.last - slots_.first, [&](Index k) {
       double const* const from = &values[static_cast<std::size_t>(k) * static_cast<std::size_t>(components)];
       for (int c = 0; c < components; ++c) JstBody::set(field, slots_.first + k, c, from[c]);
     });
@@ -85,8 +85,8 @@ class Kept {
 class Operator {
  public:
   /// `trial` shares its fields with the body. `about`: the state that the operator is about; null: the undeformed body.
-  Operator(JstBody& body, BodyState const& trial, Machine const& machine, Kept const* about)
-      : body_(body), trial_(trial), machine_(machine), D_(trial.dimension) {
+  Operator(JstBody& body, BodyState const& trial, Backend const& backend, Kept const* about)
+      : body_(body), trial_(trial), backend_(backend), D_(trial.dimension) {
     if (about != nullptr) {
       F_ = about->values_of(trial_.F);
       x_ = about->values_of(trial_.x);
@@ -111,7 +111,7 @@ class Operator {
                                                         // round-off
     Squares squares;
     for (int round = 0; round < rounds; ++round) {
-      double const most = largest_on_ranks(body_, u);
+      double const most = global_max_norm(body_, u);
       if (!(most > 0) || !std::isfinite(most)) return 0;
       each_particle([&](Index i) {
         for (int c = 0; c < D_; ++c) u[at(i, c)] *= size / most;
@@ -121,7 +121,7 @@ class Operator {
       rates_at(u, rest_);
       if (last) squares.after = square(u);
     }
-    if (body_.shared()) ranks::add(squares);
+    if (body_.shared()) comm::allreduce_sum(squares);
     return std::sqrt(squares.after.value() / squares.before.value());
   }
 
@@ -131,19 +131,19 @@ class Operator {
   template <class F>
   void each_particle(F const& f) const {
     Range const own = body_.own();
-    exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) { f(own.first + k); });
+    exec_host::parallel_for(own.last - own.first, [&](Index k) { f(own.first + k); });
   }
   struct Squares {
-    exec::ExactSums<1> before, after;
+    exec::ReproducibleSums<1> before, after;
     void add(Squares const& other) {
       before.add(other.before);
       after.add(other.after);
     }
   };
   /// Over the local particles.
-  exec::ExactSums<1> square(std::vector<double> const& u) const {
+  exec::ReproducibleSums<1> square(std::vector<double> const& u) const {
     Range const own = body_.own();
-    return exec_host::sums_of<1>(own.last - own.first, [&](Index k, double* x) {
+    return exec_host::parallel_sums<1>(own.last - own.first, [&](Index k, double* x) {
       Index const i = own.first + k;
       double sum = 0;
       for (int c = 0; c < D_; ++c) sum += u[at(i, c)] * u[at(i, c)];
@@ -168,7 +168,7 @@ class Operator {
                                      : 0.0);
       }
     });
-    machine_.step(trial_, 1.0);
+    backend_.step(trial_, 1.0);
     each_particle([&](Index i) {
       for (int c = 0; c < D_; ++c) {
         auto const k = at(i, c);
@@ -179,7 +179,7 @@ class Operator {
 
   JstBody& body_;
   BodyState trial_;
-  Machine const& machine_;
+  Backend const& backend_;
   int D_;
   double const *F_ = nullptr, *x_ = nullptr;
   std::vector<double> rest_;
@@ -198,7 +198,7 @@ BodyState trial_of(JstBody& body, FailureSlot& failure) {
 }
 
 /// Rate of the stabilisation per wave speed [1/m]: largest eigenvalue of eps4 h^3 L* L + eps2 h L.
-double damping_per_speed(JstBody& body, Machine const& machine) {
+double damping_per_speed(JstBody& body, Backend const& backend) {
   auto const& k = body.state().constants;
   if (k.biharmonic == Biharmonic::none) return 0;
   FailureSlot failure;
@@ -214,7 +214,7 @@ double damping_per_speed(JstBody& body, Machine const& machine) {
   trial.material.value[2] = 0;
   trial.constants.kappa_filtered = 0;
   trial.constants.c_p0 = 1;
-  Operator L_star_L(body, trial, machine, nullptr);
+  Operator L_star_L(body, trial, backend, nullptr);
   std::vector<double> mode(size_of_mode(body));
   each_of_mode(body, mode, [](double& value, std::uint64_t number) { value = pseudo_random(number); });
   double const sigma2 = L_star_L.dominant(mode, first_rounds) * k.h_min;  // times h^4
@@ -231,7 +231,7 @@ double largest_step(double frequency, double damping) {
 
 double largest_step(double eigenvalue) { return largest_step(std::sqrt(eigenvalue), 0); }
 
-StabilityMonitor::StabilityMonitor(JstBody& body, Machine const& machine) : body_(body), machine_(machine) {
+StabilityMonitor::StabilityMonitor(JstBody& body, Backend const& backend) : body_(body), backend_(backend) {
   mode_.resize(size_of_mode(body));
   bool const hourglass = body.options().hourglass();
   {
@@ -239,10 +239,10 @@ StabilityMonitor::StabilityMonitor(JstBody& body, Machine const& machine) : body
     if (hourglass)
       measure_at_rest();
     else
-      damping_ = damping_per_speed(body, machine);
+      damping_ = damping_per_speed(body, backend);
     kept.restore();
   }
-  double const wave_speed = machine.largest_wave_speed(body.state());
+  double const wave_speed = backend.largest_wave_speed(body.state());
   if (hourglass && is_large_lattice() && is_undeformed())
     wave_speed_ = wave_speed;  // the measurement at rest belongs to this state
   else
@@ -263,7 +263,7 @@ bool StabilityMonitor::is_undeformed() const {
         if (JstBody::value(s.F, i, c * s.dimension + d) != (c == d ? 1 : 0)) moved = 1;
     }
   }
-  if (body_.shared()) ranks::take_largest(moved);
+  if (body_.shared()) comm::allreduce_max(moved);
   return moved == 0;
 }
 
@@ -281,7 +281,7 @@ void StabilityMonitor::measure_at_rest() {
   BodyState trial = trial_of(body_, failure);
   trial.constants.exact_speed = false;  // the speed is that of the state, which this is not
   refresh_mode(body_, mode_);
-  Operator forces(body_, trial, machine_, nullptr);
+  Operator forces(body_, trial, backend_, nullptr);
   limit_at_rest_ = k.h_min / k.c_p0;
   speed_at_rest_ = k.c_p0;
   for (int repeat = 0; repeat < (is_large_lattice() ? repeats_of_many : repeats); ++repeat) {
@@ -296,7 +296,7 @@ void StabilityMonitor::measure_all_forces(int rounds, double wave_speed) {
   Kept const kept(body_);
   FailureSlot failure;
   refresh_mode(body_, mode_);
-  Operator tangent(body_, trial_of(body_, failure), machine_, &kept);
+  Operator tangent(body_, trial_of(body_, failure), backend_, &kept);
   tangent.multiply_damping(2 / limit_);
   limit_ = largest_step(tangent.dominant(mode_, rounds));
   kept.restore();
@@ -312,7 +312,7 @@ void StabilityMonitor::measure(int rounds, double wave_speed) {
   FailureSlot failure;
   BodyState trial = trial_of(body_, failure);
   trial.constants.eps2 = trial.constants.eps4 = 0;
-  Operator tangent(body_, trial, machine_, &kept);
+  Operator tangent(body_, trial, backend_, &kept);
   frequency_ = std::sqrt(tangent.dominant(mode_, rounds));
   kept.restore();
   steps_ = 0;

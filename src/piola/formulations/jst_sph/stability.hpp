@@ -29,7 +29,7 @@ class StabilityMonitor {
   double setup_stages() const;
 
   /// Measures both from a random start.
-  StabilityMonitor(JstBody& body, Machine const& machine);
+  StabilityMonitor(JstBody& body, Backend const& backend);
 
   /// Registers a step to a state with this largest wave speed, and repeats the measurement of the frequency if due.
   void update(double wave_speed);
@@ -51,7 +51,7 @@ class StabilityMonitor {
   void measure_all_forces(int rounds, double wave_speed);
 
   JstBody& body_;
-  Machine const& machine_;
+  Backend const& backend_;
   std::vector<double> mode_;        ///< of local particles, by slot
   double frequency_ = 0;            ///< 1/s, at the last measurement
   double frequency_per_speed_ = 0;  ///< 1/m, at the start

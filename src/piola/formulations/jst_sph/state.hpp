@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/device_loops.hpp"
 #include "piola/exec/field.hpp"
-#include "piola/exec/parallel.hpp"
 #include "piola/materials/registry.hpp"
-#include "piola/mechanics/held.hpp"
-#include "piola/neighbours/tables.hpp"
+#include "piola/mechanics/prescribed_data.hpp"
+#include "piola/neighbours/pair_table_views.hpp"
 
 namespace piola {
 class HaloPlan;
-class SharedTotal;
+class DeferredGlobalSum;
 }
 
 /// State of one body for the loops: plain data, independent of the instruction set.
@@ -166,7 +166,7 @@ struct BodyState {
 
   SupportComponent* supports = nullptr;
   Index support_count = 0;
-  HeldDirection* held = nullptr;
+  PrescribedDirection* held = nullptr;
   Index held_count = 0;
   Multipliers* multipliers = nullptr;  ///< nullptr: supports hold particles directly
   void (*enforce)(Multipliers& multipliers, BodyState& body, MultiplierCall const& call) = nullptr;
@@ -176,21 +176,21 @@ struct BodyState {
   double* partial = nullptr;  ///< room for the partial sums of reductions
   FailureSlot* failure = nullptr;
   StepTotals totals;
-  SharedTotal* external_work = nullptr;  ///< of loads and driven supports [J]
-  double largest_wave_speed = 0;         ///< at the end of the last step, over all ranks [m/s]
-  bool starting = false;                 ///< the step makes the state of time 0 consistent
-  bool trial = false;                    ///< a step that measures the stiffness: solids do not yield and store no state
+  DeferredGlobalSum* external_work = nullptr;  ///< of loads and driven supports [J]
+  double largest_wave_speed = 0;               ///< at the end of the last step, over all ranks [m/s]
+  bool starting = false;                       ///< the step makes the state of time 0 consistent
+  bool trial = false;  ///< a step that measures the stiffness: solids do not yield and store no state
 };
 
 /// The loops of one instruction set. Every entry accepts bodies of 1, 2 or 3 dimensions.
-struct Machine {
+struct Backend {
   char const* name;
   int lanes;
   void (*step)(BodyState& body, double dt);          ///< Algorithm 1, one step of one body
   void (*update_wave_speed)(BodyState& body);        ///< from the current F
   double (*largest_wave_speed)(BodyState& body);     ///< m/s
   void (*update_deformation)(BodyState& body);       ///< displacement variables: F from x
-  double (*run_fma_chains)(long rounds);             ///< for benchmarks, see exec/peak.hpp
+  double (*run_fma_chains)(long rounds);             ///< for benchmarks, see exec/peak_memory.hpp
   void (*commit_solid)(BodyState& body, double dt);  ///< solids in rate form: stores the state at the F of the body
   void (*observe_energy)(BodyState& body);           ///< hourglass energy and filtered volume ratio of the state
   void (*copy)(double const* from, double* to, Index n);
@@ -198,10 +198,10 @@ struct Machine {
 
 /// The instruction set of that name, or the best one of this processor for "auto"; nullptr if it is unknown or not
 /// usable here.
-Machine const* find_machine(char const* name);
+Backend const* find_backend(char const* name);
 /// Names of the instruction sets in this program that this processor can run, best first; ends with nullptr.
-char const* const* machine_names();
-/// As find_machine; throws InputError if there is none.
-Machine const& choose_machine(char const* name);
+char const* const* backend_names();
+/// As find_backend; throws InputError if there is none.
+Backend const& choose_backend(char const* name);
 
 }  // namespace piola::jst_sph

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/domain/fused_allreduce.hpp"
+#include "piola/domain/halo.hpp"
 #include "piola/formulations/jst_sph/boundary_passes.hpp"
 #include "piola/formulations/jst_sph/filter.hpp"
 #include "piola/formulations/jst_sph/forces.hpp"
 #include "piola/formulations/jst_sph/stress_passes.hpp"
 #include "piola/materials/laws.hpp"
-#include "piola/parallel/halo.hpp"
-#include "piola/parallel/reduce.hpp"
 
 /// One time step of JST-SPH, line by line as Algorithm 1 of Lee et al. (2016); equation numbers at the right.
-namespace piola::jst_sph::inline PIOLA_MACHINE {
+namespace piola::jst_sph::inline PIOLA_BACKEND {
 
 template <int D, class Loader>
 class Step {

@@ -5,7 +5,7 @@
 #include "piola/materials/laws.hpp"
 
 /// From the first sums of a Runge-Kutta stage to the input of the second sweep: geometry, stress, stabilisation.
-namespace piola::jst_sph::inline PIOLA_MACHINE {
+namespace piola::jst_sph::inline PIOLA_BACKEND {
 
 /// Records the lanes whose volume ratio is not positive, or NaN. Code 1: det F, code 2: the evolved J.
 PIOLA_FN void record_inverted(FailureSlot* failure, Index i, Lanes const& J, int code = 1) {

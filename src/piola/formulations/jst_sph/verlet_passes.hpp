@@ -4,7 +4,7 @@
 
 /// Passes of the default scheme: velocity Verlet, stabilisation without rigid motion, filtered volumetric energy.
 /// Derivation: docs/theory/jst-sph-filtered.md.
-namespace piola::jst_sph::inline PIOLA_MACHINE {
+namespace piola::jst_sph::inline PIOLA_BACKEND {
 
 /// v^(n+1/2) = v^n + dt/2 a^n,  x^(n+1) = x^n + dt v^(n+1/2); and the sums that give the rigid part of the motion.
 template <int D>

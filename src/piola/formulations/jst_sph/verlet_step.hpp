@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/domain/fused_allreduce.hpp"
+#include "piola/domain/halo.hpp"
 #include "piola/formulations/jst_sph/boundary_passes.hpp"
 #include "piola/formulations/jst_sph/filter.hpp"
 #include "piola/formulations/jst_sph/forces.hpp"
 #include "piola/formulations/jst_sph/hourglass_passes.hpp"
 #include "piola/materials/laws.hpp"
-#include "piola/parallel/halo.hpp"
-#include "piola/parallel/reduce.hpp"
 
 /// One time step of the schemes "conservative" and "filtered": kick, drift, forces, kick. Derivation:
 /// docs/theory/jst-sph-conservative.md, docs/theory/jst-sph-filtered.md.
-namespace piola::jst_sph::inline PIOLA_MACHINE {
+namespace piola::jst_sph::inline PIOLA_BACKEND {
 
 template <int D, class Loader>
 class VerletStep {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/body.hpp"
 #include "piola/base/contracts.hpp"
-#include "piola/base/problems.hpp"
-#include "piola/exec/set_up_loop.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/domain/first_failure.hpp"
+#include "piola/domain/sum_over_slots.hpp"
+#include "piola/exec/host_loops.hpp"
 #include "piola/formulations/nodal/dealt_reference.hpp"
 #include "piola/formulations/nodal/mirror_passes.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
 #include "piola/materials/laws.hpp"
-#include "piola/materials/solids.hpp"
-#include "piola/parallel/first_failure.hpp"
-#include "piola/parallel/sum_over_slots.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -19,12 +19,12 @@ namespace piola::nodal {
 namespace {
 
 /// Reduction payload of a step.
-struct SaidOfStep {
+struct StepReduction {
   FirstFailure first;
   double change;
-  void add(SaidOfStep const& other) {
+  void add(StepReduction const& other) {
     first.add(other.first);
-    ranks::keep_larger(other.change, change);
+    comm::max_or_nan(other.change, change);
   }
 };
 
@@ -36,11 +36,11 @@ constexpr double least_share = 0.5;
 }  // namespace
 
 NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size_t body, Options const& options,
-                     Machine const& machine)
+                     Backend const& backend)
     : body_(set.bodies[body]),
       options_(options),
       D_(set.dimension),
-      order_(dealt_within_parts(set, slot_order(set, body_))),
+      order_(shuffled_within_parts(set, slot_order(set, body_))),
       images_(make_images(assembly, body, order_)),
       set_(&set),
       fields_(D_, options.fluctuation_viscosity > 0 || options.shock_viscosity > 0, options.solids) {
@@ -50,7 +50,7 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
         "initial_deformation_gradient",
         body_.name));
   set_materials(materials_of(assembly, body));
-  set_up(assembly, body, machine);
+  set_up(assembly, body, backend);
   if (!images_.empty() && !reference_.held.empty())
     throw InputError(fmt::format(
         "body '{}': a support that holds the surface of a patch does not go together with mirror planes (allowed: "
@@ -65,16 +65,16 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
   fill_initial(assembly);
   fill_histories();
   make_boundary(assembly, body);
-  machine.step(state_, 0);  // the accelerations of the start
+  backend.step(state_, 0);  // the accelerations of the start
 }
 
 /// In the order of the body, whatever order its particles stand in.
-void NodalBody::set_up(Assembly const& assembly, std::size_t body, Machine const& machine) {
+void NodalBody::set_up(Assembly const& assembly, std::size_t body, Backend const& backend) {
   SlotOrder const order = slot_order(*set_, body_);
   MirrorImages const images = make_images(assembly, body, order);
   reference_ = make_reference({*set_, body_, order, assembly.loads, assembly.supports, densities(), options_.least_mass,
-                               machine, images.empty() ? nullptr : &images, 1e-3,
-                               ranks::several() ? std::optional(state_.slots) : std::nullopt});
+                               backend, images.empty() ? nullptr : &images, 1e-3,
+                               comm::is_parallel() ? std::optional(state_.slots) : std::nullopt});
   if (order.id != order_.id) reference_ = dealt_reference(std::move(reference_), order, order_);
 }
 
@@ -131,7 +131,7 @@ void NodalBody::keep_own_side() {
 
 void NodalBody::set_materials(std::vector<MaterialParameters> const& materials) {
   state_.dimension = D_;
-  state_.slots = share_of(order_.slots(), ranks::own(), ranks::count());
+  state_.slots = even_range_of_rank(order_.slots(), comm::rank(), comm::size());
   state_.all_slots = order_.slots();
   state_.particles = order_.particles;
   double const spacing = *std::min_element(body_.spacing.begin(), body_.spacing.begin() + D_);
@@ -189,7 +189,7 @@ MaterialRange const& NodalBody::material(Index slot) const {
 void NodalBody::allocate() {
   Index const n = order_.slots();
   if (reference_.lattice)
-    Gathered::place_lattice(fields_, n, reference_.lattice->guard());
+    NeighbourRecords::place_lattice(fields_, n, reference_.lattice->guard());
   else
     gathered_.place_records(fields_, D_, n + images_.count());
   if (auto const& group = reference_.group_of_k; !group.empty()) {
@@ -225,20 +225,20 @@ void NodalBody::allocate() {
 
 template <class Visit>
 void NodalBody::each_seen(Visit const& f) const {
-  exec_host::for_each_in_set_up(state_.slots.last - state_.slots.first, [&](Index k) { f(state_.slots.first + k); });
+  exec_host::parallel_for(state_.slots.last - state_.slots.first, [&](Index k) { f(state_.slots.first + k); });
   for (Index k = 0; k < images_.count(); ++k) f(order_.slots() + k);
   if (!shared()) return;
   for (Index const i : halo_->received()) f(i);
 }
 
 void NodalBody::fill_reference() {
-  auto const copy_at = [](PartFilled<double> const& from, Field& to, Index i) {
+  auto const copy_at = [](LazyZeroArray<double> const& from, Field& to, Index i) {
     auto const size = static_cast<std::size_t>(to.components());
     for (std::size_t c = 0; c < size; ++c) to.at(i, static_cast<int>(c)) = from[static_cast<std::size_t>(i) * size + c];
   };
   auto& r = reference_;
   auto& f = fields_;
-  exec_host::for_each_in_set_up(state_.slots.last - state_.slots.first, [&](Index k) {
+  exec_host::parallel_for(state_.slots.last - state_.slots.first, [&](Index k) {
     Index const i = state_.slots.first + k;
     copy_at(r.V, f.V, i);
     copy_at(r.mass, f.mass, i);
@@ -257,12 +257,12 @@ void NodalBody::fill_reference() {
     gathered_.complete_record(D_, i);
   });
   // The fields have them now.
-  for (auto* array : {&r.L, &r.g, &r.k, &r.own, &r.mu}) PartFilled<double>().swap(*array);
+  for (auto* array : {&r.L, &r.g, &r.k, &r.own, &r.mu}) LazyZeroArray<double>().swap(*array);
 }
 
 void NodalBody::fill_initial(Assembly const& assembly) {
   auto const& moved = assembly.initial_displacement;
-  exec_host::for_each_in_set_up(own().last - own().first, [&](Index k) {
+  exec_host::parallel_for(own().last - own().first, [&](Index k) {
     Index const i = own().first + k;
     auto const at = static_cast<std::size_t>(id(i));
     for (int c = 0; c < D_; ++c) {
@@ -282,13 +282,13 @@ void NodalBody::fill_initial(Assembly const& assembly) {
 void NodalBody::make_boundary(Assembly const& assembly, std::size_t body) {
   auto& r = reference_;
   // Masses of all particles on all ranks for contact, or if every rank solves for held surface places.
-  if (shared() && (assembly.pushed || !r.held.empty())) SharedSlots{slots(), particles()}.complete(r.mass, 1);
+  if (shared() && (assembly.pushed || !r.held.empty())) DistributedSlots{slots(), particles()}.complete(r.mass, 1);
   std::optional<Range> own;
   if (shared()) own = state_.slots;
-  boundary_.emplace(assembly, body, Boundary::OfBody{order_, r.mass, r.parts, r.centroid, r.held, own});
+  boundary_.emplace(assembly, body, Boundary::BodyInput{order_, r.mass, r.parts, r.centroid, r.held, own});
   boundary_->attach(state_);
-  if (!assembly.pushed) PartFilled<double>().swap(r.mass);
-  PartFilled<double>().swap(r.centroid);
+  if (!assembly.pushed) LazyZeroArray<double>().swap(r.mass);
+  LazyZeroArray<double>().swap(r.centroid);
   r.parts.clear();
 }
 
@@ -298,38 +298,38 @@ void NodalBody::fill_histories() {
     with_solid(range.material, [&](auto const& law) {
       for (Index i = std::max(range.first, own().first); i < std::min(range.last, own().last); ++i) {
         for (int q = 0; q < Fields::points(D_); ++q) {
-          int const at = SolidPlaces::point(q, D_);
-          fields_.history.at(i, at + SolidPlaces::temperature) = law.initial_temperature();
-          for (int c = 0; c < D_; ++c) fields_.history.at(i, at + SolidPlaces::F + c * (D_ + 1)) = 1;
+          int const at = HistoryLayout::point(q, D_);
+          fields_.history.at(i, at + HistoryLayout::temperature) = law.initial_temperature();
+          for (int c = 0; c < D_; ++c) fields_.history.at(i, at + HistoryLayout::F + c * (D_ + 1)) = 1;
         }
       }
     });
 }
 
-int NodalBody::step(Machine const& machine, double time, double dt) { return step(machine, time, dt, 0); }
+int NodalBody::step(Backend const& backend, double time, double dt) { return step(backend, time, dt, 0); }
 
-int NodalBody::step(Machine const& machine, double time, double dt, int halvings) {
-  machine.keep(state_);
+int NodalBody::step(Backend const& backend, double time, double dt, int halvings) {
+  backend.keep(state_);
   boundary_->begin_step(state_, time, dt);
   state_.constants.least_share = halvings < most_halvings ? least_share : 0;
-  machine.step(state_, dt);
-  agree_on_step(machine.largest_change(state_));
+  backend.step(state_, dt);
+  agree_on_step(backend.largest_change(state_));
   if (!failed() || halvings == most_halvings) {
     boundary_->end_step(state_);
     return 0;
   }
-  machine.restore(state_);
+  backend.restore(state_);
   failure_.clear();
-  int const first = step(machine, time, 0.5 * dt, halvings + 1);
-  return 1 + first + (failed() ? 0 : step(machine, time + 0.5 * dt, 0.5 * dt, halvings + 1));
+  int const first = step(backend, time, 0.5 * dt, halvings + 1);
+  return 1 + first + (failed() ? 0 : step(backend, time + 0.5 * dt, 0.5 * dt, halvings + 1));
 }
 
 /// All ranks have the first failure and the largest change of a strain.
 void NodalBody::agree_on_step(double change) {
   largest_change_ = change;
   if (!shared()) return;
-  SaidOfStep said{FirstFailure(failure_), change};
-  ranks::add(said);
+  StepReduction said{FirstFailure(failure_), change};
+  comm::allreduce_sum(said);
   said.first.put(failure_);
   largest_change_ = said.change;
 }
@@ -356,7 +356,7 @@ double NodalBody::viscous_loss() const {
 double NodalBody::mean_of_points(Index slot, int number) const {
   int const points = fields_.with_solids ? Fields::points(D_) : 0;
   double sum = 0;
-  for (int q = 0; q < points; ++q) sum += value(state_.history, slot, SolidPlaces::point(q, D_) + number) / points;
+  for (int q = 0; q < points; ++q) sum += value(state_.history, slot, HistoryLayout::point(q, D_) + number) / points;
   return sum;
 }
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/domain/halo_plan.hpp"
 #include "piola/formulations/assembly.hpp"
+#include "piola/formulations/common/lattice_line_halo.hpp"
 #include "piola/formulations/formulation.hpp"
-#include "piola/formulations/nodal/boundary.hpp"
+#include "piola/formulations/nodal/boundary_conditions.hpp"
 #include "piola/formulations/nodal/fields.hpp"
-#include "piola/formulations/nodal/gathered.hpp"
+#include "piola/formulations/nodal/neighbour_records.hpp"
 #include "piola/formulations/nodal/options.hpp"
 #include "piola/formulations/nodal/set_up.hpp"
 #include "piola/formulations/nodal/smoothing.hpp"
 #include "piola/formulations/nodal/state.hpp"
-#include "piola/formulations/shared_lines.hpp"
 #include "piola/math/tensor.hpp"
-#include "piola/parallel/halo_plan.hpp"
 #include <memory>
 #include <optional>
 #include <vector>
@@ -24,7 +24,7 @@ class NodalBody {
   /// Keeps a reference to `set`, which must outlive the body. Throws InputError (too few particles across; a body
   /// without an outline). Collective: each rank holds its local particles and their ghosts.
   NodalBody(Assembly const& assembly, ParticleSet const& set, std::size_t body, Options const& options,
-            Machine const& machine);
+            Backend const& backend);
   NodalBody(NodalBody const&) = delete;
   NodalBody& operator=(NodalBody const&) = delete;
 
@@ -41,39 +41,39 @@ class NodalBody {
   Reference const& reference() const { return reference_; }
   bool shared() const { return halo_ != nullptr; }
   /// Communication pattern of the body while strains change slowly.
-  Talk talk() const;
+  CommPattern comm_pattern() const;
   /// Slots of the local particles: all on one rank.
   Range own() const;
   /// Lattice lines for observers if the body is distributed; else nullptr.
-  SharedLines* lines() const { return lines_.get(); }
+  LatticeLineHalo* lines() const { return lines_.get(); }
   /// Created on first use. Collective.
   Smoothing const& smoothing() const;
   std::size_t bytes() const;
 
   /// Advances from `time` to time + dt, with supports and loads. If a cell is inverted, repeats the step in two halves,
   /// up to a few times; the failure remains if that does not help. Returns the number of halvings.
-  int step(Machine const& machine, double time, double dt);
+  int step(Backend const& backend, double time, double dt);
   /// Multiplies the velocities that no support prescribes; the lost kinetic energy is added to damping_loss().
   void damp(double factor);
   /// Largest change of a strain at the last step since the last measurement of the step limit.
   double largest_change() const { return largest_change_; }
-  double kinetic_energy() const;                          ///< over all ranks [J]; collective
-  double kinetic_energy_of(Index slot) const;             ///< [J]
-  double strain_energy() const;                           ///< over all ranks, of the state for observers [J];
-                                                          ///< collective
-  double damping_loss() const { return damping_loss_; }   ///< since the start [J]
-  double viscous_loss() const;                            ///< over all ranks, since the start [J]; collective
-  bool remembers() const { return fields_.with_solids; }  ///< whether it has solids in rate form
+  double kinetic_energy() const;                               ///< over all ranks [J]; collective
+  double kinetic_energy_of(Index slot) const;                  ///< [J]
+  double strain_energy() const;                                ///< over all ranks, of the state for observers [J];
+                                                               ///< collective
+  double damping_loss() const { return damping_loss_; }        ///< since the start [J]
+  double viscous_loss() const;                                 ///< over all ranks, since the start [J]; collective
+  bool stores_history() const { return fields_.with_solids; }  ///< whether it has solids in rate form
   bool viscous() const { return fields_.with_viscosity; }
-  /// Mean over the points of a cell of one number of their histories (SolidPlaces); 0 for bodies without solids in rate
-  /// form.
+  /// Mean over the points of a cell of one number of their histories (HistoryLayout); 0 for bodies without solids in
+  /// rate form.
   double mean_of_points(Index slot, int number) const;
   void set_damping_loss(double loss) { damping_loss_ = loss; }
   /// Whether the fields for observers belong to the present state, so that no sweep is needed. Callers that change the
   /// state from outside must reset it.
   bool observed() const { return observed_; }
   void set_observed(bool observed) { observed_ = observed; }
-  double next_release(double time) const { return boundary_->next_release(time); }
+  double next_end_time(double time) const { return boundary_->next_end_time(time); }
 
   std::array<double, 3> X(Index slot) const { return set_->X[static_cast<std::size_t>(id(slot))]; }
   std::array<double, 3> x(Index slot) const {
@@ -93,11 +93,11 @@ class NodalBody {
   double share(Index slot) const {
     return reference_.share.empty() ? 1 : reference_.share[static_cast<std::size_t>(slot)];
   }
-  void set_up(Assembly const& assembly, std::size_t body, Machine const& machine);
+  void set_up(Assembly const& assembly, std::size_t body, Backend const& backend);
   MirrorImages make_images(Assembly const& assembly, std::size_t body, SlotOrder const& order) const;
   void attach_images();
   void keep_own_side();
-  int step(Machine const& machine, double time, double dt, int halvings);
+  int step(Backend const& backend, double time, double dt, int halvings);
   void set_materials(std::vector<MaterialParameters> const& materials);
   void set_viscosity(MaterialParameters const& material);
   std::vector<double> densities() const;
@@ -123,7 +123,7 @@ class NodalBody {
   std::vector<MirroredParticle> mirrored_;  ///< on planes
   ParticleSet const* set_;
   Fields fields_;
-  Gathered gathered_;
+  NeighbourRecords gathered_;
   Reference reference_;
   mutable std::optional<Smoothing> smoothing_;
   std::optional<Boundary> boundary_;
@@ -134,7 +134,7 @@ class NodalBody {
   FailureSlot failure_;
   BodyState state_;
   std::unique_ptr<HaloPlan> halo_;  ///< nullptr on one rank
-  std::unique_ptr<SharedLines> lines_;
+  std::unique_ptr<LatticeLineHalo> lines_;
 };
 
 }  // namespace piola::nodal

@@ -5,7 +5,7 @@
 #include "piola/mechanics/boundary_passes.hpp"
 
 /// Passes for loads on particles, in addition to those of mechanics/. Theory: docs/theory/boundaries.md.
-namespace piola::nodal::inline PIOLA_MACHINE {
+namespace piola::nodal::inline PIOLA_BACKEND {
 
 /// Accelerations by follower pressures at the start or at the end of a step: along n da = cof F N dA (Nanson), with F
 /// at the particle. The weights of a face are exact for quadratic fields at particles, and so for the area vectors of a

@@ -4,7 +4,7 @@
 #include "piola/math/embedding.hpp"
 #include "piola/math/lanes.hpp"
 
-namespace piola::nodal::inline PIOLA_MACHINE {
+namespace piola::nodal::inline PIOLA_BACKEND {
 
 /// Gradients at the points of a cell, F_q = F + H.z_q.
 template <int D>

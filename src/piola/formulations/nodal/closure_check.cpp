@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/closure_check.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -15,13 +15,16 @@ constexpr double steepest_gradient = 10;
 
 }  // namespace
 
-void check_closure(SetUp const& from, Closure const& closure, std::vector<SetUpCheck>& checks) {
+void check_closure(SetUp const& from, IntegrationCorrection const& integration_correction,
+                   std::vector<SetUpCheck>& checks) {
   auto const& n = from.body.lattice;
-  bool const wrong = !(closure.residual <= most_missing) || !(closure.steepest <= steepest_gradient);
+  bool const wrong =
+      !(integration_correction.residual <= most_missing) || !(integration_correction.steepest <= steepest_gradient);
   std::string const found = fmt::format(
       "body '{}': gradients miss the divergence theorem by {:.3g} faces of a particle after {} iterations (at most "
       "{}), the largest is {:.3g} / spacing (at most {})",
-      from.body.name, closure.residual, closure.iterations, most_missing, closure.steepest, steepest_gradient);
+      from.body.name, integration_correction.residual, integration_correction.iterations, most_missing,
+      integration_correction.steepest, steepest_gradient);
   if (wrong)
     throw InputError(
         fmt::format("{} - nodal cannot set up this body of {} x {} x {} spacings, which may be too long for its width: "
@@ -29,10 +32,12 @@ void check_closure(SetUp const& from, Closure const& closure, std::vector<SetUpC
                     "formulation jst_sph",
                     found, std::max(n[0] - 1, 0), std::max(n[1] - 1, 0), std::max(n[2] - 1, 0)));
   std::string const of_body = from.body.name + ".closure_";
-  checks.push_back({of_body + "iterations", static_cast<double>(closure.iterations),
-                    closure.converged ? "" : found + ": the set-up did not converge, so forces may be wrong by that"});
-  checks.push_back({of_body + "residual", closure.residual, ""});
-  checks.push_back({of_body + "largest_gradient", closure.steepest, ""});
+  checks.push_back({of_body + "iterations", static_cast<double>(integration_correction.iterations),
+                    integration_correction.converged
+                        ? ""
+                        : found + ": the set-up did not converge, so forces may be wrong by that"});
+  checks.push_back({of_body + "residual", integration_correction.residual, ""});
+  checks.push_back({of_body + "largest_gradient", integration_correction.steepest, ""});
 }
 
 }  // namespace piola::nodal

@@ -9,9 +9,9 @@ namespace piola::nodal {
 namespace {
 
 /// Permutation from one order of particles to another.
-class Dealing {
+class SlotPermutation {
  public:
-  Dealing(SlotOrder const& from, SlotOrder const& to) : old_(to.id.size()), new_(to.id.size()) {
+  SlotPermutation(SlotOrder const& from, SlotOrder const& to) : old_(to.id.size()), new_(to.id.size()) {
     PIOLA_EXPECTS(from.slots() == to.slots() && from.particles == to.particles);
     std::unordered_map<std::int64_t, std::size_t> at;
     for (std::size_t i = 0; i < static_cast<std::size_t>(from.particles); ++i) at[from.id[i]] = i;
@@ -30,9 +30,9 @@ class Dealing {
   }
   /// Permutes values with a fixed number per slot; values after the slots stay.
   template <class T>
-  void deal(PartFilled<T>& values, std::size_t size = 1) const {
+  void deal(LazyZeroArray<T>& values, std::size_t size = 1) const {
     if (values.empty()) return;
-    PartFilled<T> const before = values;
+    LazyZeroArray<T> const before = values;
     for (std::size_t i = 0; i < std::min(slots(), values.size() / size); ++i)
       std::copy_n(before.begin() + static_cast<std::ptrdiff_t>(old_[i] * size), size,
                   values.begin() + static_cast<std::ptrdiff_t>(i * size));
@@ -42,10 +42,10 @@ class Dealing {
   std::vector<std::size_t> old_, new_;
 };
 
-void deal_lists(Reference& r, Dealing const& dealing) {
+void deal_lists(Reference& r, SlotPermutation const& dealing) {
   std::vector<Index> neighbour;
   std::vector<double> weight;
-  PartFilled<std::int64_t> begin(1);
+  LazyZeroArray<std::int64_t> begin(1);
   for (std::size_t i = 0; i < dealing.slots(); ++i) {
     std::size_t const a = dealing.old_slot(i);
     for (auto k = static_cast<std::size_t>(r.begin[a]); k < static_cast<std::size_t>(r.begin[a + 1]); ++k) {
@@ -63,13 +63,13 @@ void deal_lists(Reference& r, Dealing const& dealing) {
 
 Reference dealt_reference(Reference r, SlotOrder const& from, SlotOrder const& to) {
   PIOLA_EXPECTS(!r.lattice && r.group_of_k.empty());
-  Dealing const dealing(from, to);
+  SlotPermutation const dealing(from, to);
   for (auto* values : {&r.V, &r.mass, &r.L, &r.g, &r.k, &r.own, &r.centroid, &r.share})
     dealing.deal(*values, values->size() / dealing.slots());
   std::size_t const places = dealing.slots() + r.images.size();  // images have values of their own there
   for (auto* values : {&r.mu, &r.X}) dealing.deal(*values, values->size() / places);
   for (auto& parts : r.parts) dealing.deal(parts);
-  for (HeldPlace& place : r.held)
+  for (ConstrainedFacet& place : r.held)
     for (auto& weight : place.weights) weight.slot = dealing.new_slot(weight.slot);
   for (Index& source : r.source_of_image) source = dealing.new_slot(source);
   deal_lists(r, dealing);

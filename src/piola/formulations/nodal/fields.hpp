@@ -25,7 +25,7 @@ struct Fields : FieldSet {
   static int viscous_values(int D) { return 2 * points(D) * second(D) + 3; }
 
   static int points(int D) { return D == 3 ? 4 : 1 << D; }
-  static int solid_values(int D) { return SolidPlaces::point(points(D), D); }
+  static int solid_values(int D) { return HistoryLayout::point(points(D), D); }
 
   /// `has_solids`: some cell has a solid in rate form.
   explicit Fields(int D, bool has_viscosity = false, bool has_solids = false)

@@ -37,7 +37,7 @@ SlotOrder part_by_part(ParticleSet const& set, SlotOrder order) {
 
 bool may_fill(ParticleSet const& set, Body const& body, LatticeShape const& shape) {
   auto const points = static_cast<std::int64_t>(shape.count[0]) * shape.count[1] * shape.count[2];
-  return body.regular && !body.scattered && !has_parts(set, body) && body.last - body.first == points;
+  return body.regular && !body.off_lattice && !has_parts(set, body) && body.last - body.first == points;
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/formulations/nodal/blocked_sweeps.hpp"
 #include "piola/formulations/nodal/lattice.hpp"
 #include "piola/formulations/nodal/quadratic.hpp"
-#include "piola/formulations/nodal/streams.hpp"
 #include <utility>
 #if PIOLA_HAS_PACKS && defined(__AVX512F__)
 #include <immintrin.h>
@@ -15,7 +15,7 @@
 /// direction, r = (i, j, k) with i along the row. Weights s P(r) are constants. Sums over j and k come first, once for
 /// every particle of a block: over the rows at +-(j, k) even monomials need sums, odd ones differences. Then these are
 /// added along i. This needs a third of the loads and operations of a sum over pairs.
-namespace piola::nodal::inline PIOLA_MACHINE {
+namespace piola::nodal::inline PIOLA_BACKEND {
 
 /// s of two particles of a lattice by their squared distance; zero outside the support.
 constexpr double lattice_weight(int square) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/view.hpp"
+#include "piola/exec/field_view.hpp"
 #include "piola/formulations/nodal/quadratic.hpp"
 #include "piola/math/lanes.hpp"
-#include "piola/neighbours/records.hpp"
-#include "piola/neighbours/tables.hpp"
+#include "piola/neighbours/pair_table_views.hpp"
+#include "piola/neighbours/record_gather.hpp"
 #if PIOLA_HAS_PACKS && defined(__AVX512F__)
 #include <immintrin.h>
 #endif
@@ -12,7 +12,7 @@
 /// Sums over the neighbours of one particle, taken from a list. The coefficients c = s (P(r), mu) of a pair form one
 /// vector, which multiplies whole rows: of the motion of the neighbour in the first sweep, of its stress in the second.
 /// Nothing is transposed; lanes are added only at the end.
-namespace piola::nodal::inline PIOLA_MACHINE {
+namespace piola::nodal::inline PIOLA_BACKEND {
 
 /// Layout of the particle records. A coefficient vector has the monomials first, then mu, then zeros.
 template <int D>
@@ -149,7 +149,7 @@ PIOLA_FN void store_records(double* base, std::ptrdiff_t stride, Lanes const (&f
   for (int first = 0; first < N; first += 8) {
     __m512d r[8];
     for (int c = 0; c < 8; ++c) r[c] = static_cast<__m512d>(f[first + c]);
-    piola::PIOLA_MACHINE::detail::transpose(r);
+    piola::PIOLA_BACKEND::detail::transpose(r);
     for (int l = 0; l < 8; ++l) _mm512_storeu_pd(base + l * stride + first, r[l]);
   }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/nodal/fit.hpp"
+#include "piola/formulations/nodal/local_fits.hpp"
 #include "piola/formulations/nodal/set_up.hpp"
-#include "piola/neighbours/cell_moments.hpp"
+#include "piola/neighbours/particle_cells.hpp"
 #include <algorithm>
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace piola::nodal {
 template <int D>
 class LoadedFace {
  public:
-  LoadedFace(SetUp const& from, Fits<D> const& fits, std::vector<SurfacePatch> const& patches, Load const& load)
+  LoadedFace(SetUp const& from, LocalFits<D> const& fits, std::vector<SurfacePatch> const& patches, Load const& load)
       : load_(load),
         body_(from.body),
         fits_(fits),
@@ -85,7 +85,7 @@ class LoadedFace {
 
   Load const& load_;
   Body const& body_;
-  Fits<D> const& fits_;
+  LocalFits<D> const& fits_;
   MirrorImages const* images_;
   std::size_t particles_;
   std::array<bool, 3> faces_{};     ///< axes that the surface faces

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/masses.hpp"
-#include "piola/exec/set_up_loop.hpp"
+#include "piola/domain/communicator.hpp"
+#include "piola/domain/halo_plan.hpp"
+#include "piola/domain/sum_over_slots.hpp"
+#include "piola/exec/host_loops.hpp"
 #include "piola/math/solve.hpp"
-#include "piola/parallel/halo_plan.hpp"
-#include "piola/parallel/ranks.hpp"
-#include "piola/parallel/sum_over_slots.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +18,7 @@ constexpr int most_rounds = 400;
 
 template <int D>
 struct Exchange {
-  Entries rows;  ///< with pairs on this rank
+  IndexSet rows;  ///< with pairs on this rank
   Pairs pairs;
   std::vector<double> handed;  ///< V_a phi_ab, per pair of a
 };
@@ -70,8 +70,8 @@ void hand_over_cell(Points const& X, ScaledCell const& cell, std::size_t a, Exch
 
 /// The pairs of the particles of this rank and of their neighbours.
 template <int D>
-Exchange<D> pairs_in_reach(Points const& X, std::vector<Index> const& alike, MassesOf const& of) {
-  Exchange<D> x{Entries(static_cast<Index>(X.size())), {}, {}};
+Exchange<D> pairs_in_reach(Points const& X, std::vector<Index> const& alike, MassInput const& of) {
+  Exchange<D> x{IndexSet(static_cast<Index>(X.size())), {}, {}};
   if (of.lattice) {
     std::vector<std::size_t> first;
     for (std::size_t a = 0; a < alike.size(); ++a)
@@ -85,7 +85,7 @@ Exchange<D> pairs_in_reach(Points const& X, std::vector<Index> const& alike, Mas
     Range const own = of.shared->own();
     std::vector<bool> mine(X.size());
     std::fill(mine.begin() + own.first, mine.begin() + own.last, true);
-    x.rows = with_neighbours(find_pairs(X, same, Entries(mine)), own, std::vector<bool>(X.size()));
+    x.rows = with_neighbours(find_pairs(X, same, IndexSet(mine)), own, std::vector<bool>(X.size()));
   }
   x.pairs = find_pairs(X, same, x.rows);
   return x;
@@ -93,17 +93,17 @@ Exchange<D> pairs_in_reach(Points const& X, std::vector<Index> const& alike, Mas
 
 /// Transfers between cells; on a lattice once per kind of cell.
 template <int D>
-Exchange<D> hand_over(Points const& X, PartFilled<ScaledCell> const& cells, MassesOf const& of) {
-  std::vector<Index> const alike = of.lattice ? alike_in_lattice(*of.lattice, static_cast<int>(reach))
+Exchange<D> hand_over(Points const& X, LazyZeroArray<ScaledCell> const& cells, MassInput const& of) {
+  std::vector<Index> const alike = of.lattice ? representatives_in_lattice(*of.lattice, static_cast<int>(reach))
                                               : std::vector<Index>();  // at `reach` there is none
   Exchange<D> x = pairs_in_reach<D>(X, alike, of);
   x.handed.assign(x.pairs.neighbour.size(), 0);
   auto const is_first = [&](std::size_t a) { return !of.lattice || alike[a] == static_cast<Index>(a); };
-  exec_host::for_each_in_set_up(x.rows.size(), [&](Index row) {
+  exec_host::parallel_for(x.rows.size(), [&](Index row) {
     std::size_t const a = x.rows[row];
     if (is_first(a)) hand_over_cell<D>(X, cells[a], a, x);
   });
-  exec_host::for_each_in_set_up(x.rows.size(), [&](Index row) {
+  exec_host::parallel_for(x.rows.size(), [&](Index row) {
     std::size_t const a = x.rows[row];
     if (is_first(a)) return;
     auto const from = static_cast<std::size_t>(alike[a]);
@@ -116,10 +116,10 @@ Exchange<D> hand_over(Points const& X, PartFilled<ScaledCell> const& cells, Mass
 
 /// Computes particle masses from the transfers between cells and limits the transfers iteratively (factor theta per
 /// cell) until no mass is below `least` times that of its cell. One halo exchange of flags per round.
-class Restraint {
+class MassLimiter {
  public:
   template <int D>
-  Restraint(Exchange<D> const& x, PartFilled<ScaledCell> const& cells, MassesOf const& of)
+  MassLimiter(Exchange<D> const& x, LazyZeroArray<ScaledCell> const& cells, MassInput const& of)
       : pairs_(x.pairs),
         handed_(x.handed),
         cells_(cells),
@@ -129,7 +129,7 @@ class Restraint {
         marked_(cells.size()),
         mass_(cells.size()) {
     if (of.shared) {
-      halo_.emplace(of.shared->slots, read_of_others(pairs_, own_));
+      halo_.emplace(of.shared->slots, ghost_neighbours(pairs_, own_));
       halo_->add(field_of(theta_), 0, 1);
       halo_->add(field_of(marked_), 0, 1);
     }
@@ -147,7 +147,7 @@ class Restraint {
     });
   }
 
-  PartFilled<double> operator()() {
+  LazyZeroArray<double> operator()() {
     std::vector<std::size_t> light, next;
     for (auto b = static_cast<std::size_t>(own_.first); b < static_cast<std::size_t>(own_.last); ++b)
       if (is_light(b)) light.push_back(b);
@@ -163,17 +163,17 @@ class Restraint {
   }
 
  private:
-  static FieldRef field_of(PartFilled<double>& values) { return {.data = values.data()}; }
-  bool is_own(std::size_t a) const {
+  static FieldRef field_of(LazyZeroArray<double>& values) { return {.data = values.data()}; }
+  bool is_local(std::size_t a) const {
     return a >= static_cast<std::size_t>(own_.first) && a < static_cast<std::size_t>(own_.last);
   }
   bool any_on_ranks(std::vector<std::size_t> const& some) const {
     double any = some.empty() ? 0 : 1;
-    if (halo_) ranks::take_largest(any);
+    if (halo_) comm::allreduce_max(any);
     return any > 0;
   }
   /// Extends a list of local particles by the ghosts that other ranks list.
-  std::vector<std::size_t> with_those_of_others(std::vector<std::size_t> all) {
+  std::vector<std::size_t> with_ghosts(std::vector<std::size_t> all) {
     if (!halo_) return all;
     for (std::size_t const a : all) marked_[a] = 1;
     halo_->exchange(std::array{field_of(theta_), field_of(marked_)});
@@ -202,15 +202,15 @@ class Restraint {
   /// changes by this, in increasing order.
   std::vector<std::size_t> restrain(std::vector<std::size_t> const& light) {
     std::vector<std::size_t> cells = light;
-    for (std::size_t const b : with_those_of_others(light))
+    for (std::size_t const b : with_ghosts(light))
       for (std::size_t k = pairs_.first(b); k < pairs_.end(b); ++k)
-        if (is_own(pairs_.at(k)) && handed_[opposite(b, k)] < 0) cells.push_back(pairs_.at(k));
+        if (is_local(pairs_.at(k)) && handed_[opposite(b, k)] < 0) cells.push_back(pairs_.at(k));
     make_unique(cells);
     for (std::size_t const a : cells) theta_[a] *= restraint;
     std::vector<std::size_t> changed = cells;
-    for (std::size_t const a : with_those_of_others(cells))
+    for (std::size_t const a : with_ghosts(cells))
       for (std::size_t k = pairs_.first(a); k < pairs_.end(a); ++k)
-        if (is_own(pairs_.at(k))) changed.push_back(pairs_.at(k));
+        if (is_local(pairs_.at(k))) changed.push_back(pairs_.at(k));
     make_unique(changed);
     return changed;
   }
@@ -221,12 +221,12 @@ class Restraint {
 
   Pairs const& pairs_;
   std::vector<double> const& handed_;  ///< V_a phi_ab, per pair of a
-  PartFilled<ScaledCell> const& cells_;
+  LazyZeroArray<ScaledCell> const& cells_;
   double least_;
   Range own_;
-  PartFilled<double> theta_;   ///< remaining fraction of the transfers of a cell
-  PartFilled<double> marked_;  ///< 1 during an exchange for light particles or restrained cells
-  PartFilled<double> mass_;
+  LazyZeroArray<double> theta_;   ///< remaining fraction of the transfers of a cell
+  LazyZeroArray<double> marked_;  ///< 1 during an exchange for light particles or restrained cells
+  LazyZeroArray<double> mass_;
   std::optional<HaloPlan> halo_;
 };
 
@@ -268,8 +268,8 @@ class BodyMonomials {
 /// one are unchanged, and so are those with a mass change above a fifth. Not for lattices: their moments are less
 /// inexact, and a stiffness that is too large by as much compensates them.
 template <int D>
-void match_moments(Points const& X, PartFilled<ScaledCell> const& cells, Range own, bool shared,
-                   PartFilled<double>& mass) {
+void match_moments(Points const& X, LazyZeroArray<ScaledCell> const& cells, Range own, bool shared,
+                   LazyZeroArray<double>& mass) {
   constexpr int n = BodyMonomials<D>::count;
   constexpr double most = 0.2;
   BodyMonomials<D> const monomials(X);
@@ -297,8 +297,8 @@ void match_moments(Points const& X, PartFilled<ScaledCell> const& cells, Range o
   };
   auto const first = static_cast<std::size_t>(own.first), last = static_cast<std::size_t>(own.last);
   double change = 0;
-  for (std::size_t b = first; b < last; ++b) ranks::keep_larger(std::fabs(factor(b) - 1), change);
-  if (shared) ranks::take_largest(change);
+  for (std::size_t b = first; b < last; ++b) comm::max_or_nan(std::fabs(factor(b) - 1), change);
+  if (shared) comm::allreduce_max(change);
   if (!(change < most)) return;
   for (std::size_t b = first; b < last; ++b) mass[b] *= factor(b);
 }
@@ -306,16 +306,16 @@ void match_moments(Points const& X, PartFilled<ScaledCell> const& cells, Range o
 }  // namespace
 
 template <int D>
-PartFilled<double> exact_masses(Points const& X, PartFilled<ScaledCell> const& cells, MassesOf const& of) {
+LazyZeroArray<double> exact_masses(Points const& X, LazyZeroArray<ScaledCell> const& cells, MassInput const& of) {
   auto const x = hand_over<D>(X, cells, of);
-  PartFilled<double> mass = Restraint(x, cells, of)();
+  LazyZeroArray<double> mass = MassLimiter(x, cells, of)();
   Range const own = of.shared ? of.shared->own() : Range{0, static_cast<Index>(X.size())};
   if (of.match) match_moments<D>(X, cells, own, of.shared.has_value(), mass);
   return mass;
 }
 
-template PartFilled<double> exact_masses<1>(Points const&, PartFilled<ScaledCell> const&, MassesOf const&);
-template PartFilled<double> exact_masses<2>(Points const&, PartFilled<ScaledCell> const&, MassesOf const&);
-template PartFilled<double> exact_masses<3>(Points const&, PartFilled<ScaledCell> const&, MassesOf const&);
+template LazyZeroArray<double> exact_masses<1>(Points const&, LazyZeroArray<ScaledCell> const&, MassInput const&);
+template LazyZeroArray<double> exact_masses<2>(Points const&, LazyZeroArray<ScaledCell> const&, MassInput const&);
+template LazyZeroArray<double> exact_masses<3>(Points const&, LazyZeroArray<ScaledCell> const&, MassInput const&);
 
 }  // namespace piola::nodal

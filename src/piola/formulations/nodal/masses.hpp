@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/nodal/closure.hpp"
+#include "piola/formulations/nodal/integration_constraint.hpp"
 #include <vector>
 
 namespace piola::nodal {
@@ -10,17 +10,20 @@ namespace piola::nodal {
 /// case, the moments with `match` if a small correction suffices. Theory: docs/theory/nodal.md, section 3.4. lattice:
 /// the one that the particles fill, if any. shared: distributed particles; then collective, and masses of remote
 /// particles are zero.
-struct MassesOf {
+struct MassInput {
   double least;
   std::optional<LatticeShape> const& lattice;
   bool match;
-  std::optional<SharedSlots> shared = std::nullopt;
+  std::optional<DistributedSlots> shared = std::nullopt;
 };
 template <int D>
-PartFilled<double> exact_masses(Points const& X, PartFilled<ScaledCell> const& cells, MassesOf const& of);
+LazyZeroArray<double> exact_masses(Points const& X, LazyZeroArray<ScaledCell> const& cells, MassInput const& of);
 
-extern template PartFilled<double> exact_masses<1>(Points const&, PartFilled<ScaledCell> const&, MassesOf const&);
-extern template PartFilled<double> exact_masses<2>(Points const&, PartFilled<ScaledCell> const&, MassesOf const&);
-extern template PartFilled<double> exact_masses<3>(Points const&, PartFilled<ScaledCell> const&, MassesOf const&);
+extern template LazyZeroArray<double> exact_masses<1>(Points const&, LazyZeroArray<ScaledCell> const&,
+                                                      MassInput const&);
+extern template LazyZeroArray<double> exact_masses<2>(Points const&, LazyZeroArray<ScaledCell> const&,
+                                                      MassInput const&);
+extern template LazyZeroArray<double> exact_masses<3>(Points const&, LazyZeroArray<ScaledCell> const&,
+                                                      MassInput const&);
 
 }  // namespace piola::nodal

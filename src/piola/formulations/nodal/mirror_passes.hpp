@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/view.hpp"
+#include "piola/exec/field_view.hpp"
 #include "piola/formulations/nodal/list_sums.hpp"
 #include "piola/formulations/nodal/state.hpp"
 
 /// Passes over the particles on mirror planes. Theory: docs/theory/nodal.md, section 6.
-namespace piola::nodal::inline PIOLA_MACHINE {
+namespace piola::nodal::inline PIOLA_BACKEND {
 
 /// Whether a component changes its sign in a mirror across `axis`: monomials (1, p), followed by the components of a
 /// vector, as in Records.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/observe.hpp"
-#include "piola/formulations/observed.hpp"
-#include "piola/formulations/sample_own.hpp"
-#include "piola/materials/solids.hpp"
-#include "piola/parallel/ranks.hpp"
+#include "piola/domain/communicator.hpp"
+#include "piola/formulations/common/output_fields.hpp"
+#include "piola/formulations/common/sample_local.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
 #include <algorithm>
 #include <array>
 
@@ -24,7 +24,8 @@ Mat<3> first_piola(NodalBody const& body, Index i) {
 
 /// Pressure of the cell, positive in tension [Pa]: at its mean volume ratio if the law has a volumetric part.
 double cell_pressure(NodalBody const& body, Index i) {
-  if (is_solid(body.material(i).material)) return -NodalBody::value(body.state().history, i, SolidPlaces::pressure);
+  if (is_hypoelastic(body.material(i).material))
+    return -NodalBody::value(body.state().history, i, HistoryLayout::pressure);
   double p = 0;
   with_law(body.material(i).material, [&](auto const& law) {
     if (std::decay_t<decltype(law)>::volumetric_split && !body.state().constants.stress_free) {
@@ -39,14 +40,14 @@ double cell_pressure(NodalBody const& body, Index i) {
 }
 
 /// Per slot, of the particles of this rank.
-PartFilled<double> cell_pressures(NodalBody const& body) {
-  PartFilled<double> p(static_cast<std::size_t>(body.slots()));
+LazyZeroArray<double> cell_pressures(NodalBody const& body) {
+  LazyZeroArray<double> p(static_cast<std::size_t>(body.slots()));
   for (Index i = body.own().first; i < body.own().last; ++i) p[static_cast<std::size_t>(i)] = cell_pressure(body, i);
   return p;
 }
 
-void add_oscillation(NodalBody const& body, PartFilled<double> const& by_slot, Observation& o) {
-  SharedLines* const lines = body.lines();
+void add_oscillation(NodalBody const& body, LazyZeroArray<double> const& by_slot, DiagnosticsSum& o) {
+  LatticeLineHalo* const lines = body.lines();
   std::vector<double> by_id(lines != nullptr ? 0 : static_cast<std::size_t>(body.particles()));
   for (Index i = body.own().first; i < body.own().last; ++i)
     (lines != nullptr ? lines->pressure(i) : by_id[static_cast<std::size_t>(body.id(i) - body.body().first)]) =
@@ -60,12 +61,12 @@ void add_oscillation(NodalBody const& body, PartFilled<double> const& by_slot, O
 }  // namespace
 
 void observe(NodalBody const& body, NodalObservation& o) {
-  o.open_body(body.body().name);
+  o.begin_body(body.body().name);
   auto const of_cells = cell_pressures(body), smooth = body.smoothing()(of_cells);
-  exec::ExactSums<1> strain;
+  exec::ReproducibleSums<1> strain;
   for (Index i = body.own().first; i < body.own().last; ++i) {
     double const V = body.volume(i), p = smooth[static_cast<std::size_t>(i)], least = cell(body, i, least_J),
-                 of_cell = V * cell(body, i, energy), plastic = V * body.mean_of_points(i, SolidPlaces::plastic_work);
+                 of_cell = V * cell(body, i, energy), plastic = V * body.mean_of_points(i, HistoryLayout::plastic_work);
     strain.add(&of_cell);
     o.plastic_work.add(&plastic);
     o.least_jacobian = std::min(o.least_jacobian, least);
@@ -73,7 +74,7 @@ void observe(NodalBody const& body, NodalObservation& o) {
     o.add_motion(body.x(i), body.v(i), body.mass(i));
     o.of_cells.add_state(cell(body, i, mean_J), of_cells[static_cast<std::size_t>(i)], V);
   }
-  if (body.shared()) ranks::add(strain);
+  if (body.shared()) comm::allreduce_sum(strain);
   o.add_strain_energy(strain.value());
   o.totals.damping_loss += body.damping_loss();
   o.totals.stabilisation_loss += body.viscous_loss();
@@ -83,12 +84,12 @@ void observe(NodalBody const& body, NodalObservation& o) {
 }
 
 Diagnostics finish(NodalObservation o) {
-  if (ranks::several()) {
+  if (comm::is_parallel()) {
     o.share();
     o.of_cells.share();
-    ranks::add(o.plastic_work);
+    comm::allreduce_sum(o.plastic_work);
     double below = -o.least_jacobian;
-    ranks::take_largest(below);
+    comm::allreduce_max(below);
     o.least_jacobian = -below;
   }
   Diagnostics d = o.finish();
@@ -124,16 +125,16 @@ constexpr std::array<std::string_view, 20> offered{"Displacement",
                                                    "InternalEnergy"};
 constexpr std::size_t of_every_law = 16;  ///< the others belong to solids in rate form
 
-void add_history(NodalBody const& body, Index i, ObservedParticle& p) {
-  p.plastic_strain = body.mean_of_points(i, SolidPlaces::plastic_strain);
-  p.damage = body.mean_of_points(i, SolidPlaces::damage);
-  p.temperature = body.mean_of_points(i, SolidPlaces::temperature);
-  p.specific_energy = NodalBody::value(body.state().history, i, SolidPlaces::energy);
+void add_history(NodalBody const& body, Index i, ParticleOutput& p) {
+  p.plastic_strain = body.mean_of_points(i, HistoryLayout::plastic_strain);
+  p.damage = body.mean_of_points(i, HistoryLayout::damage);
+  p.temperature = body.mean_of_points(i, HistoryLayout::temperature);
+  p.specific_energy = NodalBody::value(body.state().history, i, HistoryLayout::energy);
 }
 
 }  // namespace
 
-std::vector<FieldInfo> observed_fields(bool solids) {
+std::vector<FieldInfo> output_field_names(bool solids) {
   return field_infos(std::span(offered).first(solids ? offered.size() : of_every_law));
 }
 
@@ -141,9 +142,9 @@ namespace {
 
 /// f(slot, particle) of the particles of this rank.
 template <class F>
-void observe_each(NodalBody const& body, int body_number, PartFilled<double> const& smooth, F const& f) {
+void observe_each(NodalBody const& body, int body_number, LazyZeroArray<double> const& smooth, F const& f) {
   for (Index i = body.own().first; i < body.own().last; ++i) {
-    ObservedParticle p;
+    ParticleOutput p;
     p.id = static_cast<double>(body.id(i));
     p.body = body_number;
     p.neighbours = body.reference().neighbours(i);
@@ -160,28 +161,28 @@ void observe_each(NodalBody const& body, int body_number, PartFilled<double> con
     p.cell_pressure = cell_pressure(body, i);
     p.inertia = body.material(i).constants.rho0;
     p.density = p.inertia / p.J;
-    if (is_solid(body.material(i).material)) add_history(body, i, p);
+    if (is_hypoelastic(body.material(i).material)) add_history(body, i, p);
     f(i, p);
   }
 }
 
 /// Smooths the pressure of the cells if a field needs it. Collective if the body is distributed.
-PartFilled<double> smooth_pressure(NodalBody const& body, std::string_view field) {
-  return field == "Pressure" ? body.smoothing()(cell_pressures(body)) : PartFilled<double>{};
+LazyZeroArray<double> smooth_pressure(NodalBody const& body, std::string_view field) {
+  return field == "Pressure" ? body.smoothing()(cell_pressures(body)) : LazyZeroArray<double>{};
 }
 
 }  // namespace
 
 void sample(NodalBody const& body, int body_number, std::string_view field, std::span<double> values) {
-  ObservedField const& found = find_observed(field, offered);
-  PartFilled<double> const smooth = smooth_pressure(body, field);
-  sample_for_first(body, found, values, [&](auto const& f) { observe_each(body, body_number, smooth, f); });
+  OutputField const& found = find_output_field(field, offered);
+  LazyZeroArray<double> const smooth = smooth_pressure(body, field);
+  gather_field_on_root(body, found, values, [&](auto const& f) { observe_each(body, body_number, smooth, f); });
 }
 
-void sample_own(NodalBody const& body, int body_number, std::string_view field, std::span<double> values) {
-  PartFilled<double> const smooth = smooth_pressure(body, field);
-  piola::sample_own(body, find_observed(field, offered), values,
-                    [&](auto const& f) { observe_each(body, body_number, smooth, f); });
+void sample_local_slots(NodalBody const& body, int body_number, std::string_view field, std::span<double> values) {
+  LazyZeroArray<double> const smooth = smooth_pressure(body, field);
+  piola::sample_local_slots(body, find_output_field(field, offered), values,
+                            [&](auto const& f) { observe_each(body, body_number, smooth, f); });
 }
 
 }  // namespace piola::nodal

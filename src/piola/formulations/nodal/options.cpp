@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/options.hpp"
-#include "piola/base/problems.hpp"
-#include "piola/formulations/usable_laws.hpp"
-#include "piola/materials/solids.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/formulations/common/supported_laws.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -53,8 +53,8 @@ FormulationInfo info() {
       choices,
       total_lagrangian_laws,
       diagnostics};
-  info.pushable = true;
-  info.on_ranks = info.observed_by_share = true;
+  info.can_be_coupled = true;
+  info.on_ranks = info.observes_locally = true;
   info.parts = true;
   info.surface_supports = true;
   info.outline = true;  // cells end at the surface, and mirror planes are there
@@ -85,7 +85,7 @@ Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters
   bool const stress_free = is_stress_free(word_of(spec, choices, "assumption"), dimension, false, problems);
   bool solids = false;
   for (MaterialParameters const& material : materials) {
-    if (!is_solid(material)) continue;
+    if (!is_hypoelastic(material)) continue;
     check_solid(material, stress_free, problems);
     solids = true;
   }

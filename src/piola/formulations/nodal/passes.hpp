@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/parallel.hpp"
-#include "piola/exec/view.hpp"
+#include "piola/exec/device_loops.hpp"
+#include "piola/exec/field_view.hpp"
 #include "piola/formulations/nodal/lattice_sums.hpp"
 #include "piola/formulations/nodal/list_sums.hpp"
 #include "piola/formulations/nodal/state.hpp"
-#include "piola/neighbours/records.hpp"
+#include "piola/neighbours/record_gather.hpp"
 
 /// Sweeps and moves of the nodal formulation: operations on one particle. Theory and symbols: docs/theory/nodal.md.
 /// Pairs carry r = X_b - X_a in spacings and the weight s.
-namespace piola::nodal::inline PIOLA_MACHINE {
+namespace piola::nodal::inline PIOLA_BACKEND {
 
 /// The sweep that fills a block's scratch with sums of the motion: D rows (T_i, N_i),
 ///   T_a = sum_b s (x_b - x_a) (x) P(r)  (D x values),   N_a = sum_b s (x_b - x_a) (x) mu_b  (D x D).

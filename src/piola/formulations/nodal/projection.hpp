@@ -3,7 +3,7 @@
 #include "piola/formulations/nodal/passes.hpp"
 
 /// The matrix of the divergence theorem, by the loops of the step. Theory: docs/theory/nodal.md, section 3.3.
-namespace piola::nodal::inline PIOLA_MACHINE {
+namespace piola::nodal::inline PIOLA_BACKEND {
 
 /// Turns the sums of x over neighbours into the least-squares quadratic c_a about each particle, itself included. Then
 /// (M x)_b = sum_a s V_a (x_b - c_a.P(X_b - X_a)), a = b included: rows Y_a = V_a c_a give the sum over neighbours; the

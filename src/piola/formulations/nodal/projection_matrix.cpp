@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/projection_matrix.hpp"
-#include "piola/exec/set_up_loop.hpp"
-#include "piola/formulations/nodal/told.hpp"
+#include "piola/domain/communicator.hpp"
+#include "piola/exec/host_loops.hpp"
+#include "piola/formulations/nodal/halo_fields.hpp"
 #include "piola/math/solve.hpp"
-#include "piola/parallel/ranks.hpp"
 #include <algorithm>
 #include <initializer_list>
 
@@ -18,9 +18,9 @@ Index padded(std::size_t particles) {
 }  // namespace
 
 template <int D>
-ProjectionMatrix<D>::ProjectionMatrix(Fits<D> const& fits, PartFilled<ScaledCell> const& cells, Machine const& machine,
-                                      LatticeLayout const* lattice, HaloPlan const* halo)
-    : machine_(machine),
+ProjectionMatrix<D>::ProjectionMatrix(LocalFits<D> const& fits, LazyZeroArray<ScaledCell> const& cells,
+                                      Backend const& backend, LatticeLayout const* lattice, HaloPlan const* halo)
+    : backend_(backend),
       particles_(static_cast<Index>(cells.size())),
       slots_(padded(cells.size())),
       own_(fits.own()),
@@ -31,7 +31,7 @@ ProjectionMatrix<D>::ProjectionMatrix(Fits<D> const& fits, PartFilled<ScaledCell
   if (halo != nullptr) share(*halo);
   fill(fits, cells);
   auto const& pairs = fits.pairs();
-  begin_ = PartFilled<std::int64_t>(static_cast<std::size_t>(slots_) + 1);
+  begin_ = LazyZeroArray<std::int64_t>(static_cast<std::size_t>(slots_) + 1);
   // Slots without a particle have no neighbours.
   for (Index i = state_.slots.first; i <= state_.slots.last; ++i)
     begin_[static_cast<std::size_t>(i)] = pairs.begin[static_cast<std::size_t>(std::min(i, particles_))];
@@ -41,13 +41,13 @@ ProjectionMatrix<D>::ProjectionMatrix(Fits<D> const& fits, PartFilled<ScaledCell
 /// f(i) for the particles of this rank.
 template <int D>
 template <class F>
-void ProjectionMatrix<D>::each_own(F const& f) const {
-  exec_host::for_each_in_set_up(own_.last - own_.first, [&](Index k) { f(own_.first + k); });
+void ProjectionMatrix<D>::for_each_local(F const& f) const {
+  exec_host::parallel_for(own_.last - own_.first, [&](Index k) { f(own_.first + k); });
 }
 
 template <int D>
 void ProjectionMatrix<D>::share(HaloPlan const& halo) {
-  state_.slots = share_of(slots_, ranks::own(), ranks::count());
+  state_.slots = even_range_of_rank(slots_, comm::rank(), comm::size());
   if (state_.first.data == nullptr) state_.first = weights_.ref();  // neither sent nor read at neighbours
   halo_ = halo;
   tell_sums<D>(*halo_, state_);
@@ -58,7 +58,7 @@ template <int D>
 void ProjectionMatrix<D>::allocate(LatticeLayout const* lattice) {
   auto& f = fields_;
   if (lattice != nullptr)
-    Gathered::place_lattice(f, slots_, lattice->guard());
+    NeighbourRecords::place_lattice(f, slots_, lattice->guard());
   else
     gathered_.place_records(f, D, slots_);
   for (Field* field : std::initializer_list<Field*>{&f.V, &f.mass, &f.own, &f.a, &weights_, coefficients_.get()})
@@ -80,11 +80,11 @@ void ProjectionMatrix<D>::allocate(LatticeLayout const* lattice) {
 }
 
 template <int D>
-void ProjectionMatrix<D>::fill(Fits<D> const& fits, PartFilled<ScaledCell> const& cells) {
-  PartFilled<double> explained(fits.pairs().neighbour.size());  // of the first one of each kind
+void ProjectionMatrix<D>::fill(LocalFits<D> const& fits, LazyZeroArray<ScaledCell> const& cells) {
+  LazyZeroArray<double> explained(fits.pairs().neighbour.size());  // of the first one of each kind
   for (Index i = state_.slots.first; i < state_.slots.last; ++i) fields_.mass.at(i) = 1;
   fill_sums_and_inverses(fits, explained);
-  exec_host::for_each_in_set_up(fits.rows().size(), [&](Index k) {
+  exec_host::parallel_for(fits.rows().size(), [&](Index k) {
     std::size_t const a = fits.rows()[k];
     auto const i = static_cast<Index>(a);
     for (int m = 0; m < values && fits.alike(a) != a; ++m)
@@ -95,7 +95,7 @@ void ProjectionMatrix<D>::fill(Fits<D> const& fits, PartFilled<ScaledCell> const
     for (int c = 0; c < D; ++c) fields_.X.at(i, c) = fits.X()[a][static_cast<std::size_t>(c)];
     gathered_.complete_record(D, i);
   });
-  diagonal_ = PartFilled<double>(cells.size());
+  diagonal_ = LazyZeroArray<double>(cells.size());
   auto const& pairs = fits.pairs();
   scatter_in_order(own_, fits.rows(), pairs.farthest(), [&](std::size_t a, auto const& mine) {
     auto const i = static_cast<Index>(a);
@@ -115,15 +115,15 @@ void ProjectionMatrix<D>::fill(Fits<D> const& fits, PartFilled<ScaledCell> const
 
 /// For each particle; on a lattice once per kind.
 template <int D>
-void ProjectionMatrix<D>::fill_sums_and_inverses(Fits<D> const& fits, PartFilled<double>& explained) {
+void ProjectionMatrix<D>::fill_sums_and_inverses(LocalFits<D> const& fits, LazyZeroArray<double>& explained) {
   bool const lattice = state_.lattice.present != nullptr;
-  if (lattice) groups_.emplace(fits, state_.slots, slots_, machine_.lanes);
+  if (lattice) groups_.emplace(fits, state_.slots, slots_, backend_.lanes);
   inverse_.allocate_tiled(lattice ? groups_->slots() : slots_);
-  PartFilled<Inverse> of_kind(lattice ? fits.X().size() : 0);
+  LazyZeroArray<Inverse> of_kind(lattice ? fits.X().size() : 0);
   auto const put = [this](Index place, Inverse const& inverse) {
     for (int m = 0; m < triangle; ++m) inverse_.at(place, m) = inverse[static_cast<std::size_t>(m)];
   };
-  exec_host::for_each_in_set_up(fits.rows().size(), [&](Index k) {
+  exec_host::parallel_for(fits.rows().size(), [&](Index k) {
     std::size_t const a = fits.rows()[k];
     if (fits.alike(a) != a) return;
     Inverse const inverse = fill_sums(fits, a, explained);
@@ -140,8 +140,8 @@ void ProjectionMatrix<D>::fill_sums_and_inverses(Fits<D> const& fits, PartFilled
 
 /// A particle's sums of weights and, per pair, p(X_b).inverse.p(X_b); returns the inverse of its normal equations.
 template <int D>
-typename ProjectionMatrix<D>::Inverse ProjectionMatrix<D>::fill_sums(Fits<D> const& fits, std::size_t a,
-                                                                     PartFilled<double>& explained) {
+typename ProjectionMatrix<D>::Inverse ProjectionMatrix<D>::fill_sums(LocalFits<D> const& fits, std::size_t a,
+                                                                     LazyZeroArray<double>& explained) {
   auto const& pairs = fits.pairs();
   auto const i = static_cast<Index>(a);
   double A[values * values]{}, inverse[values * values], p[values]{1};
@@ -178,12 +178,12 @@ typename ProjectionMatrix<D>::Inverse ProjectionMatrix<D>::fill_sums(Fits<D> con
 }
 
 template <int D>
-void ProjectionMatrix<D>::apply(PartFilled<double> const& x, PartFilled<double>& image) {
-  each_own([&](Index i) {
+void ProjectionMatrix<D>::apply(LazyZeroArray<double> const& x, LazyZeroArray<double>& image) {
+  for_each_local([&](Index i) {
     for (int c = 0; c < D; ++c) fields_.x.at(i, c) = x[static_cast<std::size_t>(i) * D + static_cast<std::size_t>(c)];
   });
-  machine_.project(state_, {inverse_.ref(), weights_.ref(), coefficients_->ref()});
-  each_own([&](Index i) {
+  backend_.project(state_, {inverse_.ref(), weights_.ref(), coefficients_->ref()});
+  for_each_local([&](Index i) {
     for (int c = 0; c < D; ++c)
       image[static_cast<std::size_t>(i) * D + static_cast<std::size_t>(c)] = fields_.a.at(i, c);
   });

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/nodal/alike_groups.hpp"
-#include "piola/formulations/nodal/closure.hpp"
-#include "piola/formulations/nodal/gathered.hpp"
+#include "piola/formulations/nodal/integration_constraint.hpp"
+#include "piola/formulations/nodal/neighbour_records.hpp"
+#include "piola/formulations/nodal/unique_lane_groups.hpp"
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -19,14 +19,14 @@ class ProjectionMatrix {
   static constexpr int values = Quadratic<D>::values;
 
   /// halo: of ghosts, without fields, if the body is distributed: each rank then has the rows of its local particles.
-  ProjectionMatrix(Fits<D> const& fits, PartFilled<ScaledCell> const& cells, Machine const& machine,
+  ProjectionMatrix(LocalFits<D> const& fits, LazyZeroArray<ScaledCell> const& cells, Backend const& backend,
                    LatticeLayout const* lattice, HaloPlan const* halo);
   ProjectionMatrix(ProjectionMatrix const&) = delete;
   ProjectionMatrix& operator=(ProjectionMatrix const&) = delete;
 
   /// Collective.
-  void apply(PartFilled<double> const& x, PartFilled<double>& image);
-  PartFilled<double> const& diagonal() const { return diagonal_; }
+  void apply(LazyZeroArray<double> const& x, LazyZeroArray<double>& image);
+  LazyZeroArray<double> const& diagonal() const { return diagonal_; }
   /// Inverse entry (m, n) of the normal equations of particle i.
   double inverse(Index i, int m, int n) const {
     int const row = std::min(m, n), column = std::max(m, n);
@@ -37,26 +37,26 @@ class ProjectionMatrix {
 
  private:
   template <class F>
-  void each_own(F const& f) const;
+  void for_each_local(F const& f) const;
   void allocate(LatticeLayout const* lattice);
   void share(HaloPlan const& halo);
-  void fill(Fits<D> const& fits, PartFilled<ScaledCell> const& cells);
+  void fill(LocalFits<D> const& fits, LazyZeroArray<ScaledCell> const& cells);
   /// Upper triangle, row by row.
   static constexpr int triangle = values * (values + 1) / 2;
   using Inverse = std::array<double, static_cast<std::size_t>(triangle)>;
-  void fill_sums_and_inverses(Fits<D> const& fits, PartFilled<double>& explained);
-  Inverse fill_sums(Fits<D> const& fits, std::size_t a, PartFilled<double>& explained);
+  void fill_sums_and_inverses(LocalFits<D> const& fits, LazyZeroArray<double>& explained);
+  Inverse fill_sums(LocalFits<D> const& fits, std::size_t a, LazyZeroArray<double>& explained);
 
-  Machine const& machine_;
+  Backend const& backend_;
   Index particles_, slots_;
   Range own_;
   Fields fields_{D};
-  Gathered gathered_;
-  std::optional<AlikeGroups> groups_;  ///< of a lattice: groups with equal inverses
+  NeighbourRecords gathered_;
+  std::optional<UniqueLaneGroups> groups_;  ///< of a lattice: groups with equal inverses
   Field inverse_, weights_;
   std::unique_ptr<Field> coefficients_;
-  PartFilled<std::int64_t> begin_;
-  PartFilled<double> diagonal_;
+  LazyZeroArray<std::int64_t> begin_;
+  LazyZeroArray<double> diagonal_;
   std::optional<HaloPlan> halo_;
   FailureSlot failure_;
   BodyState state_;

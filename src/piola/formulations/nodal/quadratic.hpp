@@ -3,7 +3,7 @@
 #include "piola/math/tensor.hpp"
 
 /// Quadratic polynomials about a particle, in units of the spacing: monomials and derivatives.
-namespace piola::nodal::inline PIOLA_MACHINE {
+namespace piola::nodal::inline PIOLA_BACKEND {
 
 /// Default support radius in spacings, enlarged if neighbours do not determine a quadratic well: 56 neighbours inside a
 /// cubic lattice.

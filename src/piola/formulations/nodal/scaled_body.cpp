@@ -71,8 +71,8 @@ void continue_behind_planes(ScaledBody& r, MirrorImages const& images) {
 
 }  // namespace
 
-void keep_cells(ScaledBody& body, Entries const& of) {
-  PartFilled<ScaledCell> kept(body.cells.size());
+void keep_cells(ScaledBody& body, IndexSet const& of) {
+  LazyZeroArray<ScaledCell> kept(body.cells.size());
   for (Index k = 0; k < of.size(); ++k) kept[of[k]] = body.cells[of[k]];
   body.cells = std::move(kept);
 }

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/set_up.hpp"
-#include "piola/base/problems.hpp"
-#include "piola/exec/set_up_loop.hpp"
-#include "piola/formulations/nodal/alike_groups.hpp"
-#include "piola/formulations/nodal/closure.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/exec/host_loops.hpp"
 #include "piola/formulations/nodal/closure_check.hpp"
-#include "piola/formulations/nodal/face_parts.hpp"
-#include "piola/formulations/nodal/held_faces.hpp"
+#include "piola/formulations/nodal/constrained_facets.hpp"
+#include "piola/formulations/nodal/integration_constraint.hpp"
+#include "piola/formulations/nodal/load_integrals.hpp"
 #include "piola/formulations/nodal/masses.hpp"
 #include "piola/formulations/nodal/mirror_passes.hpp"
 #include "piola/formulations/nodal/scaled_body.hpp"
+#include "piola/formulations/nodal/unique_lane_groups.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -63,7 +63,7 @@ class Tables {
   static constexpr auto second = static_cast<std::size_t>(Quadratic<D>::second);
   static constexpr auto dimension = static_cast<std::size_t>(D);
 
-  Tables(SetUp const& from, ScaledBody const& scaled, Fits<D> const& fits, Reference& to)
+  Tables(SetUp const& from, ScaledBody const& scaled, LocalFits<D> const& fits, Reference& to)
       : from_(from),
         scaled_(scaled),
         fits_(fits),
@@ -74,8 +74,8 @@ class Tables {
     if (from.images != nullptr) keep_images();
   }
 
-  void fill(Closure const& closure, PartFilled<double> const& mass) {
-    using Values = PartFilled<double>;
+  void fill(IntegrationCorrection const& integration_correction, LazyZeroArray<double> const& mass) {
+    using Values = LazyZeroArray<double>;
     to_.V = Values(slots_);
     to_.mass = Values(slots_);
     to_.X = Values((slots_ + to_.images.size()) * dimension);
@@ -85,19 +85,19 @@ class Tables {
     share_k();
     to_.own = Values(slots_ * (values + dimension));
     to_.centroid = Values(slots_ * dimension);
-    fill_seen(closure);
+    fill_seen(integration_correction);
     for (auto slot = from_.own_slots().first; slot < from_.own_slots().last; ++slot)
       to_.mass[static_cast<std::size_t>(slot)] = 1;
-    each_own([&](std::size_t a) {
+    for_each_local([&](std::size_t a) {
       to_.mass[a] = mass[a] * scaled_.h_volume * from_.rho0.front();
       auto const L = cholesky<D>(scaled_.cells[a], scaled_.h);
       for (std::size_t c = 0; c < L.size(); ++c) to_.L[a * L.size() + c] = parity(a) * L[c];
       for (std::size_t c = 0; c < dimension; ++c)
         to_.centroid[a * dimension + c] = scaled_.cells[a].centroid[c] * scaled_.h[c];
-      fill_derivatives(a, closure);
+      fill_derivatives(a, integration_correction);
     });
-    fill_images(closure);
-    each_own([this](std::size_t a) { fill_own(a); });
+    fill_images(integration_correction);
+    for_each_local([this](std::size_t a) { fill_own(a); });
   }
 
   /// The lists of own particles.
@@ -112,7 +112,7 @@ class Tables {
     if (!to_.lattice) keep(pairs.weight);  // of a lattice only observers read the lists
     if (from_.images != nullptr)
       for (Index& b : pairs.neighbour) b = static_cast<Index>(place_of(static_cast<std::size_t>(b)));
-    to_.begin = PartFilled<std::int64_t>(slots_ + 1);
+    to_.begin = LazyZeroArray<std::int64_t>(slots_ + 1);
     // Slots without a particle have no neighbours.
     for (auto slot = first_; slot <= static_cast<std::size_t>(from_.own_slots().last); ++slot)
       to_.begin[slot] = pairs.begin[std::min(slot, last_)] - static_cast<std::int64_t>(before);
@@ -123,21 +123,21 @@ class Tables {
  private:
   /// f(a) for the particles of this rank.
   template <class F>
-  void each_own(F const& f) const {
-    exec_host::for_each_in_set_up(static_cast<Index>(last_ - first_),
-                                  [&](Index k) { f(first_ + static_cast<std::size_t>(k)); });
+  void for_each_local(F const& f) const {
+    exec_host::parallel_for(static_cast<Index>(last_ - first_),
+                            [&](Index k) { f(first_ + static_cast<std::size_t>(k)); });
   }
 
   /// Fills the reference data (V, X, mu) of the particles of this rank and of their ghosts.
-  void fill_seen(Closure const& closure) {
-    Entries const& rows = fits_.rows();
-    exec_host::for_each_in_set_up(rows.size(), [&](Index k) {
+  void fill_seen(IntegrationCorrection const& integration_correction) {
+    IndexSet const& rows = fits_.rows();
+    exec_host::parallel_for(rows.size(), [&](Index k) {
       std::size_t const a = rows[k];
       if (a >= scaled_.particles) return;
       to_.V[a] = scaled_.cells[a].volume * scaled_.h_volume;
       for (std::size_t c = 0; c < dimension; ++c) {
         to_.X[a * dimension + c] = scaled_.X[a][c];
-        to_.mu[a * dimension + c] = closure.mu[a * dimension + c] / scaled_.h[c];
+        to_.mu[a * dimension + c] = integration_correction.mu[a * dimension + c] / scaled_.h[c];
       }
     });
   }
@@ -161,16 +161,16 @@ class Tables {
       to_.images.push_back(static_cast<Index>(k));
       to_.source_of_image.push_back(images.particles().source[k]);
     }
-    to_.share = PartFilled<double>(slots_, 1);
+    to_.share = LazyZeroArray<double>(slots_, 1);
     for (std::size_t a = 0; a < scaled_.particles; ++a) to_.share[a] = 1 / images.multiplicity(static_cast<Index>(a));
   }
 
-  void fill_images(Closure const& closure) {
+  void fill_images(IntegrationCorrection const& integration_correction) {
     for (std::size_t k = 0; k < to_.images.size(); ++k) {
       std::size_t const b = scaled_.particles + static_cast<std::size_t>(to_.images[k]);
       for (std::size_t c = 0; c < dimension; ++c) {
         to_.X[(slots_ + k) * dimension + c] = scaled_.X[b][c];
-        to_.mu[(slots_ + k) * dimension + c] = closure.mu[b * dimension + c] / scaled_.h[c];
+        to_.mu[(slots_ + k) * dimension + c] = integration_correction.mu[b * dimension + c] / scaled_.h[c];
       }
     }
   }
@@ -189,20 +189,21 @@ class Tables {
   double parity(std::size_t a) const {
     auto const id = from_.order.id[a];
     auto const& at = from_.set.lattice_index[static_cast<std::size_t>(id)];
-    auto const sum = from_.body.scattered ? id : static_cast<std::int64_t>(at[0] + at[1] + at[2]);
+    auto const sum = from_.body.off_lattice ? id : static_cast<std::int64_t>(at[0] + at[1] + at[2]);
     return sum % 2 == 0 ? 1 : -1;
   }
 
   /// g: the gradient at the centroid, with the correction's own quadratic.
-  void fill_derivatives(std::size_t a, Closure const& closure) {
+  void fill_derivatives(std::size_t a, IntegrationCorrection const& integration_correction) {
     double* const g = &to_.g[a * values * dimension];
     auto const& cell = scaled_.cells[a];
     for (std::size_t J = 0; J < dimension; ++J) {
       for (std::size_t m = 0; m < values; ++m)
         g[m * dimension + J] =
-            -closure.coefficients->at(static_cast<Index>(a), static_cast<int>(m * dimension + J)) / scaled_.h[J];
+            -integration_correction.coefficients->at(static_cast<Index>(a), static_cast<int>(m * dimension + J)) /
+            scaled_.h[J];
       for (int l = 0; l < Quadratic<D>::terms; ++l) {
-        typename Fits<D>::Monomials column;
+        typename LocalFits<D>::Monomials column;
         for (int i = 0; i < Quadratic<D>::terms; ++i) column[static_cast<std::size_t>(i)] = fits_.inverse(a, i, l);
         g[static_cast<std::size_t>(1 + l) * dimension + J] +=
             at_centroid<D>(column, cell, static_cast<int>(J)) / scaled_.h[J];
@@ -227,12 +228,12 @@ class Tables {
   /// Makes k: one for each particle, or of a lattice for each kind of group of lanes.
   void share_k() {
     if (!to_.lattice) {
-      to_.k = PartFilled<double>(slots_ * terms * second);
-      each_own([this](std::size_t a) { fill_second(a, &to_.k[a * terms * second]); });
+      to_.k = LazyZeroArray<double>(slots_ * terms * second);
+      for_each_local([this](std::size_t a) { fill_second(a, &to_.k[a * terms * second]); });
       return;
     }
-    AlikeGroups groups(fits_, from_.own_slots(), static_cast<Index>(slots_), from_.machine.lanes);
-    to_.k = PartFilled<double>(static_cast<std::size_t>(groups.slots()) * terms * second);
+    UniqueLaneGroups groups(fits_, from_.own_slots(), static_cast<Index>(slots_), from_.backend.lanes);
+    to_.k = LazyZeroArray<double>(static_cast<std::size_t>(groups.slots()) * terms * second);
     groups.each(scaled_.particles,
                 [&](std::size_t place, std::size_t a) { fill_second(a, &to_.k[place * terms * second]); });
     to_.group_of_k = std::move(groups.stored);
@@ -254,7 +255,7 @@ class Tables {
 
   SetUp const& from_;
   ScaledBody const& scaled_;
-  Fits<D> const& fits_;
+  LocalFits<D> const& fits_;
   Reference& to_;
   std::size_t slots_, first_, last_;  ///< all slots; own particles
   std::vector<std::size_t> kept_;     ///< of each image, how many before it are neighbours
@@ -268,9 +269,9 @@ Index source_of(SetUp const& from, std::size_t i) {
 
 /// Cells with volumes in proportion to their masses, in units of the body's own density: transfers between cells are
 /// masses, with the moments of all materials together. Empty for a single material.
-PartFilled<ScaledCell> heavy_cells(SetUp const& from, PartFilled<ScaledCell> const& light) {
+LazyZeroArray<ScaledCell> heavy_cells(SetUp const& from, LazyZeroArray<ScaledCell> const& light) {
   if (from.rho0.size() == 1) return {};
-  PartFilled<ScaledCell> cells = light;
+  LazyZeroArray<ScaledCell> cells = light;
   for (std::size_t i = 0; i < cells.size(); ++i)
     cells[i].volume *=
         from.rho0[part_of(from.set,
@@ -296,7 +297,7 @@ bool is_slender(SetUp const& from) {
 /// by particle, by images, which are not on the lattice, and by shuffled bodies.
 std::optional<LatticeShape> shape_for_loops(SetUp const& from) {
   bool const follows = std::any_of(from.loads.begin(), from.loads.end(), [](Load const& load) { return load.follows; });
-  if (follows || from.images != nullptr || shuffle_takes_lists() || is_slender(from)) return std::nullopt;
+  if (follows || from.images != nullptr || shuffle_forces_lists() || is_slender(from)) return std::nullopt;
   return lattice_shape(from.set, from.body, from.order);
 }
 
@@ -308,23 +309,24 @@ void refuse_without_cell(SetUp const& from, ScaledBody const& scaled) {
 }
 
 template <int D>
-Closure find_closure(SetUp const& from, Divergence<D> const& divergence, Fold<D> const* fold, Reference& r) {
-  Closure closure =
-      divergence.solve(from.closure_tolerance, from.machine, r.lattice ? &*r.lattice : nullptr, {fold, r.halo.get()});
-  if (closure.rounding > most_rounding) r.lattice.reset();  // lists take differences of positions first
-  r.closure_iterations = closure.iterations;
-  check_closure(from, closure, r.checks);
-  return closure;
+IntegrationCorrection find_closure(SetUp const& from, IntegrationConstraint<D> const& divergence,
+                                   SymmetryReduction<D> const* fold, Reference& r) {
+  IntegrationCorrection integration_correction =
+      divergence.solve(from.closure_tolerance, from.backend, r.lattice ? &*r.lattice : nullptr, {fold, r.halo.get()});
+  if (integration_correction.rounding > most_rounding) r.lattice.reset();  // lists take differences of positions first
+  r.closure_iterations = integration_correction.iterations;
+  check_closure(from, integration_correction, r.checks);
+  return integration_correction;
 }
 
 struct MassOptions {
-  std::optional<SharedSlots> const& shared;
+  std::optional<DistributedSlots> const& shared;
   bool endless;  ///< between two mirror planes
 };
 
 template <int D>
-PartFilled<double> masses(SetUp const& from, ScaledBody const& scaled, std::optional<LatticeShape> const& shape,
-                          MassOptions const& options) {
+LazyZeroArray<double> masses(SetUp const& from, ScaledBody const& scaled, std::optional<LatticeShape> const& shape,
+                             MassOptions const& options) {
   auto const heavy = heavy_cells(from, scaled.cells);
   return exact_masses<D>(scaled.X, heavy.empty() ? scaled.cells : heavy,
                          {from.least_mass, shape, !has_lattice_cells(from.body) && !options.endless, options.shared});
@@ -338,30 +340,30 @@ Reference make(SetUp const& from) {
   r.costs.cells = since(clock);
   refuse_without_cell(from, scaled);
   auto const shape = shape_for_loops(from);
-  std::optional<SharedSlots> shared;
-  if (from.is_shared()) shared = SharedSlots{from.order.slots(), from.order.particles};
-  std::optional<Fold<D>> fold;
+  std::optional<DistributedSlots> shared;
+  if (from.is_shared()) shared = DistributedSlots{from.order.slots(), from.order.particles};
+  std::optional<SymmetryReduction<D>> fold;
   if (from.images != nullptr) fold.emplace(*from.images, scaled.particles);
   // First, because its pairs reach farther than those that are kept.
   auto const mass = masses<D>(from, scaled, shape, {shared, fold && fold->endless()});
   r.costs.masses = since(clock);
-  Fits<D> fits(scaled.X, shape, shared);
-  if (shape && fits.usual()) r.lattice.emplace(*shape, from.order.slots(), from.machine.lanes);
-  if (fits.hopeless() >= 0)
-    refuse(from, source_of(from, static_cast<std::size_t>(fits.hopeless())),
+  LocalFits<D> fits(scaled.X, shape, shared);
+  if (shape && fits.usual()) r.lattice.emplace(*shape, from.order.slots(), from.backend.lanes);
+  if (fits.unsolvable() >= 0)
+    refuse(from, source_of(from, static_cast<std::size_t>(fits.unsolvable())),
            "has neighbours that determine no quadratic field - use at least three particles across the body in every "
            "direction");
   if (shared) keep_cells(scaled, fits.rows());
-  if (shared) r.halo = std::make_unique<HaloPlan>(shared->slots, read_of_others(fits.pairs(), fits.own()));
+  if (shared) r.halo = std::make_unique<HaloPlan>(shared->slots, ghost_neighbours(fits.pairs(), fits.own()));
   r.costs.fits = since(clock);
-  Divergence<D> const divergence(fits, scaled.cells, scaled.patches);
-  Closure const closure = find_closure<D>(from, divergence, fold ? &*fold : nullptr, r);
-  r.parts = face_parts<D>(from, fits, divergence, {scaled.h, r.checks});
+  IntegrationConstraint<D> const divergence(fits, scaled.cells, scaled.patches);
+  IntegrationCorrection const integration_correction = find_closure<D>(from, divergence, fold ? &*fold : nullptr, r);
+  r.parts = load_integrals<D>(from, fits, divergence, {scaled.h, r.checks});
   for (auto& parts : r.parts) parts.resize(std::min(parts.size(), scaled.particles));
-  r.held = held_faces<D>(from, fits, scaled.patches, scaled.h);
-  r.costs.closure = since(clock);
+  r.held = constrained_facets<D>(from, fits, scaled.patches, scaled.h);
+  r.costs.integration_correction = since(clock);
   Tables<D> tables(from, scaled, fits, r);
-  tables.fill(closure, mass);
+  tables.fill(integration_correction, mass);
   tables.fill_lists(fits.take_pairs());
   r.costs.tables = since(clock);
   return r;

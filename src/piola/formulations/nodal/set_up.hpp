@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/part_filled.hpp"
+#include "piola/domain/halo_plan.hpp"
+#include "piola/domain/slot_collectives.hpp"
+#include "piola/exec/lazy_zero_array.hpp"
 #include "piola/formulations/assembly.hpp"
-#include "piola/formulations/mirror_images.hpp"
+#include "piola/formulations/common/mirror_images.hpp"
+#include "piola/formulations/common/set_up_checks.hpp"
 #include "piola/formulations/nodal/lattice_layout.hpp"
 #include "piola/formulations/nodal/state.hpp"
-#include "piola/formulations/set_up_checks.hpp"
-#include "piola/mechanics/surface_hold.hpp"
-#include "piola/neighbours/tables.hpp"
-#include "piola/parallel/halo_plan.hpp"
-#include "piola/parallel/own_slots.hpp"
+#include "piola/mechanics/surface_constraint.hpp"
+#include "piola/neighbours/pair_table_views.hpp"
 #include "piola/particles/ordering.hpp"
 #include <memory>
 #include <optional>
@@ -19,9 +19,9 @@ namespace piola::nodal {
 
 /// Cost of setting up a body [s].
 struct SetUpCosts {
-  double cells = 0;    ///< volumes, moments and surface
-  double fits = 0;     ///< neighbours and quadratic fits
-  double closure = 0;  ///< the divergence theorem
+  double cells = 0;                   ///< volumes, moments and surface
+  double fits = 0;                    ///< neighbours and quadratic fits
+  double integration_correction = 0;  ///< the divergence theorem
   double masses = 0;
   double tables = 0;  ///< data for the loops
 };
@@ -35,7 +35,7 @@ struct SetUp {
   std::vector<Support> const& supports;
   std::vector<double> const& rho0;       ///< of the main material and of the parts [kg/m^3]
   double least_mass;                     ///< of a particle over that of its cell
-  Machine const& machine;                ///< instruction set of the loops that solve for the divergence theorem
+  Backend const& backend;                ///< instruction set of the loops that solve for the divergence theorem
   MirrorImages const* images = nullptr;  ///< the whole body behind its mirror planes; nullptr: it has none
   /// Tolerance of the residual of the divergence theorem; smaller values change no result.
   double closure_tolerance = 1e-3;
@@ -56,21 +56,21 @@ struct FacePart {
 /// The undeformed body for the loops: values per slot, in the order of Fields. On ranks: of local slots, and V, X and
 /// mu of ghosts. Theory: docs/theory/nodal.md, section 3.
 struct Reference {
-  PartFilled<double> V, mass, L, g, k, own, mu;
+  LazyZeroArray<double> V, mass, L, g, k, own, mu;
   /// On a lattice: index of the stored group of k per group of lanes, if groups with identical geometry share it.
-  PartFilled<std::int32_t> group_of_k;
-  PartFilled<double> X;                     ///< in spacings, D per slot
-  PartFilled<double> centroid;              ///< of the cell relative to the particle, D per slot [m]
-  std::vector<PartFilled<FacePart>> parts;  ///< per load on a face, per slot; empty for other loads
-  std::vector<HeldPlace> held;              ///< parts of the surface that supports hold
-  PartFilled<std::int64_t> begin;           ///< lists, see ListTable
+  LazyZeroArray<std::int32_t> group_of_k;
+  LazyZeroArray<double> X;                     ///< in spacings, D per slot
+  LazyZeroArray<double> centroid;              ///< of the cell relative to the particle, D per slot [m]
+  std::vector<LazyZeroArray<FacePart>> parts;  ///< per load on a face, per slot; empty for other loads
+  std::vector<ConstrainedFacet> held;          ///< parts of the surface that supports hold
+  LazyZeroArray<std::int64_t> begin;           ///< lists, see ListTable
   std::vector<Index> neighbour;
   std::vector<double> weight;
   // With mirror planes lists refer to images by the slots after those of the body; V and mass are those of the whole
   // body.
   std::vector<Index> images;             ///< images that are neighbours, numbered as in SetUp::images
   std::vector<Index> source_of_image;    ///< slots
-  PartFilled<double> share;              ///< fraction of a particle's volume in the body itself; empty: no planes
+  LazyZeroArray<double> share;           ///< fraction of a particle's volume in the body itself; empty: no planes
   std::optional<LatticeLayout> lattice;  ///< replaces the lists if particles fill a lattice
   std::unique_ptr<HaloPlan> halo;        ///< of ghosts, without fields; nullptr on one rank
   int closure_iterations = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/smoothing.hpp"
-#include "piola/exec/set_up_loop.hpp"
-#include "piola/parallel/ranks.hpp"
+#include "piola/domain/communicator.hpp"
+#include "piola/exec/host_loops.hpp"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -34,12 +34,11 @@ Smoothing::Smoothing(Reference const& reference, int dimension, Range own, HaloP
 
 template <class F>
 void Smoothing::each_particle(F const& f) const {
-  exec_host::for_each_in_set_up(range_.last - range_.first,
-                                [&](Index k) { f(static_cast<std::size_t>(range_.first + k)); });
+  exec_host::parallel_for(range_.last - range_.first, [&](Index k) { f(static_cast<std::size_t>(range_.first + k)); });
 }
 
 /// Exchanges the ghost values.
-void Smoothing::tell(PartFilled<double>& values) const {
+void Smoothing::tell(LazyZeroArray<double>& values) const {
   if (halo_ != nullptr) exchange_once(*halo_, {.data = values.data()}, 1);
 }
 
@@ -60,7 +59,7 @@ void Smoothing::find_weights(Reference const& reference, std::size_t dimension) 
 
 /// d <- sqrt(d / sum_b W_ab V_b d_b), b = a included, as long as a row is off. The sums of rows are exact in the end.
 void Smoothing::balance() {
-  PartFilled<double> d(V_.size()), sum(V_.size());
+  LazyZeroArray<double> d(V_.size()), sum(V_.size());
   each_particle([&](std::size_t a) { d[a] = 1 / std::sqrt(V_[a]); });
   double off = 1;
   for (int sweep = 0; sweep < most_sweeps && off > tolerance; ++sweep) {
@@ -75,11 +74,11 @@ void Smoothing::balance() {
     off = 0;
     for (auto a = static_cast<std::size_t>(range_.first); a < static_cast<std::size_t>(range_.last); ++a)
       off = std::max(off, std::abs(d[a] * sum[a] - 1));
-    if (halo_ != nullptr) ranks::take_largest(off);
+    if (halo_ != nullptr) comm::allreduce_max(off);
     each_particle([&](std::size_t a) { d[a] = std::sqrt(d[a] / sum[a]); });
   }
   tell(d);
-  own_ = PartFilled<double>(V_.size());
+  own_ = LazyZeroArray<double>(V_.size());
   each_particle([&](std::size_t a) {
     own_[a] = 1;
     for (auto k = static_cast<std::size_t>(begin_[a]); k < static_cast<std::size_t>(begin_[a + 1]); ++k) {
@@ -90,9 +89,9 @@ void Smoothing::balance() {
   });
 }
 
-PartFilled<double> Smoothing::once(PartFilled<double> f) const {
+LazyZeroArray<double> Smoothing::once(LazyZeroArray<double> f) const {
   tell(f);
-  PartFilled<double> smooth(f.size());
+  LazyZeroArray<double> smooth(f.size());
   each_particle([&](std::size_t a) {
     smooth[a] = own_[a] * f[a];
     for (auto k = static_cast<std::size_t>(begin_[a]); k < static_cast<std::size_t>(begin_[a + 1]); ++k)
@@ -101,6 +100,6 @@ PartFilled<double> Smoothing::once(PartFilled<double> f) const {
   return smooth;
 }
 
-PartFilled<double> Smoothing::operator()(PartFilled<double> f) const { return once(once(std::move(f))); }
+LazyZeroArray<double> Smoothing::operator()(LazyZeroArray<double> f) const { return once(once(std::move(f))); }
 
 }  // namespace piola::nodal

@@ -16,27 +16,27 @@ class Smoothing {
   Smoothing(Reference const& reference, int dimension, Range own, HaloPlan const* halo = nullptr);
 
   /// Returns S^2 f, values per slot; on ranks those of local particles.
-  PartFilled<double> operator()(PartFilled<double> f) const;
+  LazyZeroArray<double> operator()(LazyZeroArray<double> f) const;
 
  private:
   template <class F>
   void each_particle(F const& f) const;
   void find_weights(Reference const& reference, std::size_t dimension);
   void balance();
-  PartFilled<double> once(PartFilled<double> f) const;
-  void tell(PartFilled<double>& values) const;
+  LazyZeroArray<double> once(LazyZeroArray<double> f) const;
+  void tell(LazyZeroArray<double>& values) const;
 
   /// The particle of pair k, or the source of an image.
   std::size_t owner(std::size_t k) const { return static_cast<std::size_t>(reference_.owner(neighbour_[k])); }
 
   Reference const& reference_;
-  PartFilled<std::int64_t> const& begin_;
+  LazyZeroArray<std::int64_t> const& begin_;
   std::vector<Index> const& neighbour_;
-  PartFilled<double> const& V_;
+  LazyZeroArray<double> const& V_;
   Range range_;
   HaloPlan const* halo_;
   std::vector<double> weight_;  ///< W per pair, then d_a W d_b V_b
-  PartFilled<double> own_;      ///< 1 - sum_b s_ab V_b
+  LazyZeroArray<double> own_;   ///< 1 - sum_b s_ab V_b
 };
 
 }  // namespace piola::nodal

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/view.hpp"
+#include "piola/exec/field_view.hpp"
 #include "piola/formulations/nodal/quadratic.hpp"
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/materials/finite_increment.hpp"
-#include "piola/materials/solids.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
 #include "piola/math/embedding.hpp"
 #include "piola/math/scalar.hpp"
 
 /// Cells of solids in rate form: their stresses follow from the state that the last step stored at their points, and
 /// from the present deformation gradients. Theory: docs/theory/nodal.md, "Solids in rate form".
-namespace piola::nodal::inline PIOLA_MACHINE {
+namespace piola::nodal::inline PIOLA_BACKEND {
 
 /// Interface of a solid for UpdateStress. The law is hidden behind two functions, so that passes are compiled once for
 /// all solids: formulas run in lanes; return mapping and pressure run one by one.
@@ -147,7 +147,7 @@ class SolidCells {
   /// Factor that the yield surface leaves of the trial deviator S of a point. Cells of other materials, and empty ones,
   /// are skipped.
   PIOLA_FN Lanes return_to_yield(Index i, int q, SymMat<3, Lanes>& S, Lanes const& pressure, Lanes const& rho) const {
-    using At = SolidPlaces;
+    using At = HistoryLayout;
     double left[6][lane_count], share[lane_count];
     int const at = At::point(q, D);
     for (int l = 0; l < lane_count; ++l) {
@@ -184,14 +184,14 @@ class SolidCells {
   PIOLA_FN Cell left_at(Index i) const {
     auto const value = [&](int c) { return history_.scalar<Lanes>(i, c); };
     Cell cell;
-    cell.pressure = value(SolidPlaces::pressure);
-    cell.energy = value(SolidPlaces::energy);
+    cell.pressure = value(HistoryLayout::pressure);
+    cell.energy = value(HistoryLayout::energy);
     for (int q = 0; q < points; ++q) {
-      int const at = SolidPlaces::point(q, D);
-      cell.spread[q] = value(at + SolidPlaces::spread);
-      for (int c = 0; c < 6; ++c) cell.S[q].c[c] = value(at + SolidPlaces::S + c);
+      int const at = HistoryLayout::point(q, D);
+      cell.spread[q] = value(at + HistoryLayout::spread);
+      for (int c = 0; c < 6; ++c) cell.S[q].c[c] = value(at + HistoryLayout::S + c);
       Mat<D, Lanes> F;
-      for (int c = 0; c < D * D; ++c) F.c[c] = value(at + SolidPlaces::F + c);
+      for (int c = 0; c < D * D; ++c) F.c[c] = value(at + HistoryLayout::F + c);
       cell.F[q] = embed<D>(F);
     }
     return cell;
@@ -204,13 +204,13 @@ class SolidCells {
     auto const put = [&](Lanes const& now, int c) {
       history_out_.scalar(i, select(mine, now, history_.scalar<Lanes>(i, c)), c);
     };
-    put(cell.pressure, SolidPlaces::pressure);
-    put(cell.energy, SolidPlaces::energy);
+    put(cell.pressure, HistoryLayout::pressure);
+    put(cell.energy, HistoryLayout::energy);
     for (int q = 0; q < points; ++q) {
-      int const at = SolidPlaces::point(q, D);
-      put(cell.spread[q], at + SolidPlaces::spread);
-      for (int c = 0; c < 6; ++c) put(cell.S[q].c[c], at + SolidPlaces::S + c);
-      for (int c = 0; c < D * D; ++c) put(cell.F[q](c / D, c % D), at + SolidPlaces::F + c);
+      int const at = HistoryLayout::point(q, D);
+      put(cell.spread[q], at + HistoryLayout::spread);
+      for (int c = 0; c < 6; ++c) put(cell.S[q].c[c], at + HistoryLayout::S + c);
+      for (int c = 0; c < D * D; ++c) put(cell.F[q](c / D, c % D), at + HistoryLayout::F + c);
     }
   }
 

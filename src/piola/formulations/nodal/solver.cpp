@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/solver.hpp"
-#include "piola/formulations/bodies.hpp"
-#include "piola/formulations/checkpoint.hpp"
+#include "piola/domain/communicator.hpp"
+#include "piola/domain/slot_collectives.hpp"
+#include "piola/formulations/common/body_resultants.hpp"
+#include "piola/formulations/common/field_checkpoint.hpp"
+#include "piola/formulations/common/sample_local.hpp"
+#include "piola/formulations/common/set_up_checks.hpp"
+#include "piola/formulations/common/slots_by_id.hpp"
 #include "piola/formulations/nodal/observe.hpp"
 #include "piola/formulations/nodal/stability.hpp"
-#include "piola/formulations/sample_own.hpp"
-#include "piola/formulations/set_up_checks.hpp"
-#include "piola/formulations/slots_by_id.hpp"
-#include "piola/mechanics/actions.hpp"
-#include "piola/mechanics/boundary.hpp"
+#include "piola/mechanics/body_boundary_conditions.hpp"
 #include "piola/mechanics/prescribed.hpp"
-#include "piola/parallel/own_slots.hpp"
-#include "piola/parallel/ranks.hpp"
+#include "piola/mechanics/resultants.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,24 +26,24 @@ class Solver final : public Formulation, public SetUpChecked {
  public:
   explicit Solver(Assembly const& assembly)
       : set_(assembly.particles),
-        machine_(choose_machine(assembly.machine.c_str())),
+        backend_(choose_backend(assembly.backend.c_str())),
         actions_(assembly.supports, assembly.loads, assembly.rigid_shapes) {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
       Options const options =
           read_options(assembly.formulations[k], materials_of(assembly, k), set_.dimension, assembly.cfl);
-      bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, machine_));
-      monitors_.push_back(std::make_unique<StabilityMonitor>(*bodies_.back(), machine_));
+      bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, backend_));
+      monitors_.push_back(std::make_unique<StabilityMonitor>(*bodies_.back(), backend_));
     }
     pushed_ = assembly.pushed;
     if (pushed_) slots_ = SlotsById(set_, bodies_);
   }
 
-  double stable_time_step() const override { return up_to_release_of(bodies_, time_, settled_time_step()); }
-  double settled_time_step() const override { return least_step(&StabilityMonitor::step); }
+  double stable_time_step() const override { return clip_step_to_end_time_of(bodies_, time_, steady_time_step()); }
+  double steady_time_step() const override { return least_step(&StabilityMonitor::step); }
 
-  StepRule step_rule() const override {
-    StepRule rule;
-    rule.first = settled_time_step();
+  StepEstimate step_estimate_of_run() const override {
+    StepEstimate rule;
+    rule.first = steady_time_step();
     rule.settled = least_step(&StabilityMonitor::calm_step);
     if (time_ == 0) rule.growth = StabilityMonitor::growth_at_start;
     if (bodies_.front()->options().cfl > 0) {
@@ -61,14 +61,14 @@ class Solver final : public Formulation, public SetUpChecked {
     actions_.begin_step(bodies_, dt);
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
       bodies_[k]->set_observed(false);
-      int const halvings = bodies_[k]->step(machine_, time, dt);
+      int const halvings = bodies_[k]->step(backend_, time, dt);
       repeated_ += halvings;
       monitors_[k]->update(dt, halvings);
     }
     actions_.end_step(bodies_);
     time_ = time + dt;
     ends_step_ = true;
-    if (ranks::several() && failed()) tell_failures();
+    if (comm::is_parallel() && failed()) tell_failures();
   }
 
   void damp(double factor) override {
@@ -79,13 +79,13 @@ class Solver final : public Formulation, public SetUpChecked {
   }
   void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                    std::span<std::array<double, 3>> v) const override {
-    read_motion_of(bodies_, slots_, ids, x, v);
+    add_coupled_particles(bodies_, slots_, ids, x, v);
   }
   void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
     read_masses_of(bodies_, slots_, ids, m, [](auto const& body, Index slot) { return body.known_mass(slot); });
   }
-  void push(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
-    push_all(bodies_, set_.dimension, slots_, ids, change);
+  void add_velocities(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
+    add_velocities_of(bodies_, set_.dimension, slots_, ids, change);
     for (auto const& body : bodies_) body->set_observed(false);
     std::vector<char> moved(bodies_.size(), 0);
     slots_.visit(ids, [&](std::size_t, std::size_t body, Index slot) {
@@ -94,15 +94,15 @@ class Solver final : public Formulation, public SetUpChecked {
     if (std::find(moved.begin(), moved.end(), 1) != moved.end()) actions_.settle(bodies_);
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
       if (moved[k] == 0) continue;
-      bodies_[k]->boundary().withstand(bodies_[k]->state());
+      bodies_[k]->boundary().project_out_reactions(bodies_[k]->state());
       if (!ends_step_) continue;
       bodies_[k]->boundary().hand_over(actions_);
-      bodies_[k]->boundary().forget_impulses();
+      bodies_[k]->boundary().reset_impulses();
     }
     ends_step_ = false;
   }
   double kinetic_energy() const override {
-    return sum_of(bodies_, [](auto const& body) { return body.kinetic_energy(); });
+    return parallel_sum(bodies_, [](auto const& body) { return body.kinetic_energy(); });
   }
 
   std::optional<Failure> failure() const override;
@@ -119,7 +119,8 @@ class Solver final : public Formulation, public SetUpChecked {
   }
 
   std::vector<FieldInfo> fields() const override {
-    return observed_fields(std::any_of(bodies_.begin(), bodies_.end(), [](auto const& b) { return b->remembers(); }));
+    return output_field_names(
+        std::any_of(bodies_.begin(), bodies_.end(), [](auto const& b) { return b->stores_history(); }));
   }
   void sample(std::string_view field, std::span<double> values) const override {
     int number = 0;
@@ -129,29 +130,29 @@ class Solver final : public Formulation, public SetUpChecked {
     }
   }
 
-  void sample_owned(std::string_view field, std::span<double> values) const override {
-    sample_of_own(*this, bodies_, field, values, [&](auto& body, int number, std::span<double> own) {
+  void sample_local(std::string_view field, std::span<double> values) const override {
+    sample_local_bodies(*this, bodies_, field, values, [&](auto& body, int number, std::span<double> own) {
       refresh(body);
-      sample_own(body, number, field, own);
+      sample_local_slots(body, number, field, own);
     });
   }
 
   void save(StateWriter& writer) const override;
   void load(StateReader& reader) override;
-  std::optional<std::vector<std::int64_t>> owned() const override { return ids_of_own(bodies_); }
+  std::optional<std::vector<std::int64_t>> local_particles() const override { return local_ids(bodies_); }
 
   int stages_per_step() const override { return 1; }
-  std::optional<Talk> talk(std::size_t body) const override {
-    Talk talk = bodies_[body]->talk();
+  std::optional<CommPattern> comm_pattern(std::size_t body) const override {
+    CommPattern talk = bodies_[body]->comm_pattern();
     if (monitors_[body]->is_given()) return talk;
     talk.collectives += StabilityMonitor::collectives_per_step;
     talk.more_if_shortened = StabilityMonitor::more_if_shortened;
     double least = monitors_[body]->step();
     for (auto const& monitor : monitors_) least = std::min(least, monitor->step());
-    talk.take_shorter_steps(monitors_[body]->step(), least);
+    talk.account_for_shorter_steps(monitors_[body]->step(), least);
     return talk;
   }
-  std::vector<std::pair<std::string, double>> costs() const override;
+  std::vector<std::pair<std::string, double>> timings() const override;
   std::vector<SetUpCheck> set_up_checks() const override;
   std::size_t memory_bytes() const override {
     std::size_t total = set_.bytes();
@@ -168,7 +169,7 @@ class Solver final : public Formulation, public SetUpChecked {
     FailureSlot failure;
     BodyState seen = body.state();
     seen.failure = &failure;
-    machine_.observe(seen);
+    backend_.observe(seen);
   }
   template <class F>
   void each_evolved(NodalBody const& body, std::size_t number, F const& f) const;
@@ -187,7 +188,7 @@ class Solver final : public Formulation, public SetUpChecked {
 
   ParticleSet set_;
   SlotsById slots_;
-  Machine const& machine_;
+  Backend const& backend_;
   std::vector<std::unique_ptr<NodalBody>> bodies_;
   std::vector<std::unique_ptr<StabilityMonitor>> monitors_;
   ActionsOnBodies actions_;
@@ -200,13 +201,15 @@ class Solver final : public Formulation, public SetUpChecked {
 
 /// The longest step that keeps the energy of all bodies as well as is wanted [s]; infinite where nothing moves.
 double Solver::calm_time_step() const {
-  double energy = 0, unrest = 0;
+  double energy = 0, energy_oscillation = 0;
   for (std::size_t k = 0; k < monitors_.size(); ++k) {
     energy += monitors_[k]->energy();
     double const tolerance = bodies_[k]->options().energy_tolerance;
-    if (tolerance > 0) unrest += monitors_[k]->unrest() / (StabilityMonitor::share_of_tolerance * tolerance);
+    if (tolerance > 0)
+      energy_oscillation += monitors_[k]->energy_oscillation() / (StabilityMonitor::share_of_tolerance * tolerance);
   }
-  return unrest > 0 && energy > 0 ? std::sqrt(energy / unrest) : std::numeric_limits<double>::infinity();
+  return energy_oscillation > 0 && energy > 0 ? std::sqrt(energy / energy_oscillation)
+                                              : std::numeric_limits<double>::infinity();
 }
 
 /// Replicates the values of the first failed particle for its error message.
@@ -220,10 +223,10 @@ void Solver::tell_failures() {
     auto const& s = body.state();
     int const D = set_.dimension;
     for (auto const& [field, components] : {std::pair{s.x, D}, {s.v, D}, {s.F, D * D}, {s.cell, 4}})
-      merge_slots(field, body.own(), std::array{slot}, components);
-    if (is_own(body.own(), slot)) failed_neighbours_[k] = body.reference().neighbours(slot);
+      allgather_selected_slots(field, body.own(), std::array{slot}, components);
+    if (is_local(body.own(), slot)) failed_neighbours_[k] = body.reference().neighbours(slot);
   }
-  ranks::merge(failed_neighbours_);
+  comm::allreduce_or(failed_neighbours_);
 }
 
 std::optional<Failure> Solver::failure() const {
@@ -231,7 +234,7 @@ std::optional<Failure> Solver::failure() const {
     auto const& body = bodies_[k];
     FailureSlot const& slot = *body->state().failure;
     if (slot.index >= body->particles()) continue;
-    if (!ranks::several()) refresh(*body);
+    if (!comm::is_parallel()) refresh(*body);
     double const least = NodalBody::value(body->state().cell, slot.index, 2);
     Failure f;
     f.what = least <= 0 ? "is inverted" : "has a deformation that is not a number";
@@ -250,16 +253,16 @@ std::optional<Failure> Solver::failure() const {
   return std::nullopt;
 }
 
-std::vector<std::pair<std::string, double>> Solver::costs() const {
+std::vector<std::pair<std::string, double>> Solver::timings() const {
   SetUpCosts sum;
   for (auto const& body : bodies_) {
     auto const& c = body->reference().costs;
-    sum = {sum.cells + c.cells, sum.fits + c.fits, sum.closure + c.closure, sum.masses + c.masses,
-           sum.tables + c.tables};
+    sum = {sum.cells + c.cells, sum.fits + c.fits, sum.integration_correction + c.integration_correction,
+           sum.masses + c.masses, sum.tables + c.tables};
   }
   return {{"set_up_cells", sum.cells},
           {"set_up_fits", sum.fits},
-          {"set_up_closure", sum.closure},
+          {"set_up_closure", sum.integration_correction},
           {"set_up_masses", sum.masses},
           {"set_up_tables", sum.tables}};
 }
@@ -283,7 +286,7 @@ void Solver::each_evolved(NodalBody const& body, std::size_t number, F const& f)
   f(fmt::format("body{}_acceleration", number), s.a, D);
   f(fmt::format("body{}_measured_stretch", number), s.C_measured, D * (D + 1) / 2);
   f(fmt::format("body{}_change", number), s.change, 2);
-  if (body.remembers()) f(fmt::format("body{}_solid_history", number), s.history, Fields::solid_values(D));
+  if (body.stores_history()) f(fmt::format("body{}_solid_history", number), s.history, Fields::solid_values(D));
   if (body.viscous()) f(fmt::format("body{}_viscous_history", number), s.viscous, Fields::viscous_values(D));
 }
 
@@ -291,7 +294,7 @@ void Solver::save(StateWriter& writer) const {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     NodalBody const& body = *bodies_[k];
     each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
-      save_own(writer, name, body, field, components);
+      save_local(writer, name, body, field, components);
     });
     writer.put(fmt::format("body{}_step_limit", k), monitors_[k]->state());
     writer.put(fmt::format("body{}_energy_books", k),
@@ -306,13 +309,13 @@ void Solver::load(StateReader& reader) {
     NodalBody& body = *bodies_[k];
     body.set_observed(false);
     each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
-      load_own(reader, name, body, field, components);
+      load_local(reader, name, body, field, components);
     });
     monitors_[k]->load(reader, fmt::format("body{}_step_limit", k));
-    std::array<double, 2> books{};
-    reader.get(fmt::format("body{}_energy_books", k), books);
-    body.boundary().external_work().set(books[0]);
-    body.set_damping_loss(books[1]);
+    std::array<double, 2> energy_totals{};
+    reader.get(fmt::format("body{}_energy_books", k), energy_totals);
+    body.boundary().external_work().set(energy_totals[0]);
+    body.set_damping_loss(energy_totals[1]);
   }
   load_part(reader, "actions", actions_);
   std::array<double, 2> clock{};

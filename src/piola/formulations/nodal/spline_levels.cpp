@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/spline_levels.hpp"
-#include "piola/exec/set_up_loop.hpp"
-#include "piola/parallel/ranks.hpp"
+#include "piola/domain/communicator.hpp"
+#include "piola/exec/host_loops.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -81,7 +81,7 @@ void each_pair(std::array<int, 3> const& coarse, std::array<int, 3> const& fine,
 }  // namespace
 
 template <int D>
-SplineLevels<D>::SplineLevels(Points const& X, std::optional<SharedSlots> const& shared) : X_(X), shared_(shared) {
+SplineLevels<D>::SplineLevels(Points const& X, std::optional<DistributedSlots> const& shared) : X_(X), shared_(shared) {
   double longest = 0;
   for (std::size_t c = 0; c < D; ++c) {
     auto const [low, high] =
@@ -116,8 +116,8 @@ void SplineLevels<D>::add_level(double spacing) {
 }
 
 template <int D>
-PartFilled<double> SplineLevels<D>::probe() const {
-  PartFilled<double> u(X_.size() * D);
+LazyZeroArray<double> SplineLevels<D>::probe() const {
+  LazyZeroArray<double> u(X_.size() * D);
   Range const own = shared_ ? shared_->own() : Range{0, static_cast<Index>(X_.size())};
   for (auto k = static_cast<std::size_t>(own.first) * D; k < static_cast<std::size_t>(own.last) * D; ++k)
     for (std::size_t c = 0; c < D; ++c) {
@@ -170,18 +170,18 @@ void SplineLevels<D>::prolong(Level const& coarse, Level& fine) {
 /// Threads, and ranks, have layers of splines across the last axis for their own and see all particles, so that each
 /// spline gets its summands in the order of particles for any number of them.
 template <int D>
-void SplineLevels<D>::add_to_splines(PartFilled<double> const& r) {
+void SplineLevels<D>::add_to_splines(LazyZeroArray<double> const& r) {
   Level& first = levels_.front();
   auto const particles = static_cast<Index>(X_.size());
   std::fill(first.value.begin(), first.value.end(), 0);
   constexpr auto last = static_cast<std::size_t>(D - 1);
   std::size_t const layer = first.value.size() / D / static_cast<std::size_t>(first.splines[last]);
   std::int64_t const layers = first.splines[last];
-  int const count = shared_ ? ranks::count() : 1, rank = shared_ ? ranks::own() : 0;
+  int const count = shared_ ? comm::size() : 1, rank = shared_ ? comm::rank() : 0;
   auto const start = [&](int k) { return static_cast<int>(layers * k / count); };
   int const before = start(rank), mine = start(rank + 1) - before;
-  Index const parts = std::max<Index>(1, std::min<Index>(exec_host::team(particles), mine));
-  exec_host::for_each_part_in_set_up(parts, particles, [&](Index part) {
+  Index const parts = std::max<Index>(1, std::min<Index>(exec_host::team_size(particles), mine));
+  exec_host::parallel_for_chunks(parts, particles, [&](Index part) {
     auto const border = [&](Index k) { return before + static_cast<int>(std::int64_t{mine} * k / parts); };
     int const low = border(part), high = border(part + 1);
     for (std::size_t a = 0; a < X_.size(); ++a) {
@@ -196,11 +196,11 @@ void SplineLevels<D>::add_to_splines(PartFilled<double> const& r) {
   if (!shared_) return;
   std::vector<std::size_t> starts;
   for (int k = 0; k <= count; ++k) starts.push_back(static_cast<std::size_t>(start(k)) * layer * D);
-  ranks::complete(first.value, starts);
+  comm::allgather(first.value, starts);
 }
 
 template <int D>
-void SplineLevels<D>::add(PartFilled<double>& r, PartFilled<double>& z) {
+void SplineLevels<D>::add(LazyZeroArray<double>& r, LazyZeroArray<double>& z) {
   Level& first = levels_.front();
   if (shared_) shared_->complete(r, D);
   add_to_splines(r);
@@ -209,7 +209,7 @@ void SplineLevels<D>::add(PartFilled<double>& r, PartFilled<double>& z) {
     for (std::size_t k = 0; k < level.value.size(); ++k) level.value[k] /= stiffness_ * level.energy[k / D];
   for (std::size_t l = levels_.size() - 1; l > 0; --l) prolong(levels_[l], levels_[l - 1]);
   Range const own = shared_ ? shared_->own() : Range{0, static_cast<Index>(X_.size())};
-  exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) {
+  exec_host::parallel_for(own.last - own.first, [&](Index k) {
     auto const a = static_cast<std::size_t>(own.first + k);
     visit(a, [&](std::size_t spline, double value) {
       for (std::size_t J = 0; J < D; ++J) z[a * D + J] += value * first.value[spline * D + J];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/nodal/fit.hpp"
+#include "piola/formulations/nodal/local_fits.hpp"
 #include <array>
 #include <optional>
 #include <vector>
@@ -16,16 +16,16 @@ template <int D>
 class SplineLevels {
  public:
   /// Positions in spacings. shared: distributed positions; each rank has a part of the splines of the finest level.
-  SplineLevels(Points const& X, std::optional<SharedSlots> const& shared);
+  SplineLevels(Points const& X, std::optional<DistributedSlots> const& shared);
 
   /// A field whose sum of squares of third derivatives is `probe_square` everywhere; D columns alike.
-  PartFilled<double> probe() const;
+  LazyZeroArray<double> probe() const;
   /// stiffness: of the matrix, per volume and square of third derivatives.
   void set_stiffness(double stiffness) { stiffness_ = stiffness; }
   static constexpr double probe_square = D;
   /// z += preconditioned r; D values per particle. Collective: z is valid for local particles, and r is replicated
   /// afterwards.
-  void add(PartFilled<double>& r, PartFilled<double>& z);
+  void add(LazyZeroArray<double>& r, LazyZeroArray<double>& z);
 
  private:
   struct Level {
@@ -35,7 +35,7 @@ class SplineLevels {
     std::vector<double> value;   ///< D per spline
   };
   void add_level(double spacing);
-  void add_to_splines(PartFilled<double> const& r);
+  void add_to_splines(LazyZeroArray<double> const& r);
   static void restrict_to(Level const& fine, Level& coarse);
   static void prolong(Level const& coarse, Level& fine);
   /// Index of the interval of the finest level that contains particle a, along an axis.
@@ -45,7 +45,7 @@ class SplineLevels {
   void visit(std::size_t a, F const& f) const;
 
   Points const& X_;
-  std::optional<SharedSlots> shared_;
+  std::optional<DistributedSlots> shared_;
   std::array<double, 3> low_{}, length_{};
   std::vector<Level> levels_;
   double stiffness_ = 1;

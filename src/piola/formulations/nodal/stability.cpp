@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/stability.hpp"
-#include "piola/exec/set_up_loop.hpp"
-#include "piola/formulations/own_mode.hpp"
-#include "piola/parallel/ranks.hpp"
-#include "piola/parallel/sum_over_slots.hpp"
+#include "piola/domain/communicator.hpp"
+#include "piola/domain/sum_over_slots.hpp"
+#include "piola/exec/host_loops.hpp"
+#include "piola/formulations/common/distributed_mode.hpp"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -39,18 +39,18 @@ constexpr double lasting = 50, calmer = 0.7;
 constexpr double halved = 0.6, least_caution = 0.2, recovery = 1.004;
 
 /// Reduction payload of a vector and of the energy error indicator.
-struct SaidOfExtent {
-  exec::ExactSums<1> square;
+struct ExtentReduction {
+  exec::ReproducibleSums<1> square;
   double most;
-  void add(SaidOfExtent const& other) {
+  void add(ExtentReduction const& other) {
     square.add(other.square);
-    ranks::keep_larger(other.most, most);
+    comm::max_or_nan(other.most, most);
   }
 };
-struct SumsOfUnrest {
-  exec::ExactSums<3> of_particles;
-  exec::ExactSum held;
-  void add(SumsOfUnrest const& other) {
+struct EnergyOscillationSums {
+  exec::ReproducibleSums<3> of_particles;
+  exec::ReproducibleSum held;
+  void add(EnergyOscillationSums const& other) {
     of_particles.add(other.of_particles);
     held += other.held;
   }
@@ -95,8 +95,8 @@ double largest_eigenvalue(std::vector<double> const& diagonal, std::vector<doubl
 
 }  // namespace
 
-StabilityMonitor::StabilityMonitor(NodalBody& body, Machine const& machine)
-    : body_(body), machine_(machine), interval_(shortest) {
+StabilityMonitor::StabilityMonitor(NodalBody& body, Backend const& backend)
+    : body_(body), backend_(backend), interval_(shortest) {
   if (is_given()) return;
   mode_.resize(size_of_mode(body));
   measure(first_cycles, true);
@@ -108,7 +108,7 @@ std::size_t StabilityMonitor::place(Index i, int c) const { return mode_place(bo
 template <class F>
 void StabilityMonitor::each_particle(F const& f) const {
   Range const own = body_.own();
-  exec_host::for_each_in_set_up(own.last - own.first, [&](Index k) { f(own.first + k); });
+  exec_host::parallel_for(own.last - own.first, [&](Index k) { f(own.first + k); });
 }
 
 template <class F>
@@ -140,7 +140,7 @@ StabilityMonitor::Vector StabilityMonitor::accelerations() {
   FailureSlot failure;
   BodyState trial = body_.state();
   trial.failure = &failure;
-  machine_.accelerate(trial);
+  backend_.accelerate(trial);
   Vector a(mode_.size());
   each_particle([&](Index i) {
     for (int c = 0; c < D; ++c) a[place(i, c)] = value_at(trial.a, i, c);
@@ -149,7 +149,7 @@ StabilityMonitor::Vector StabilityMonitor::accelerations() {
 }
 
 /// sum m u.v, of the particles of this rank.
-exec::ExactSums<1> StabilityMonitor::own_product(Vector const& u, Vector const& v) const {
+exec::ReproducibleSums<1> StabilityMonitor::own_product(Vector const& u, Vector const& v) const {
   int const D = body_.state().dimension;
   return sums_over_slots<1>(false, body_.own(), [&](Index i, double* x) {
     double sum = 0;
@@ -160,13 +160,13 @@ exec::ExactSums<1> StabilityMonitor::own_product(Vector const& u, Vector const& 
 
 double StabilityMonitor::product(Vector const& u, Vector const& v) const {
   auto sum = own_product(u, v);
-  if (body_.shared()) ranks::add(sum);
+  if (body_.shared()) comm::allreduce_sum(sum);
   return sum.value();
 }
 
 StabilityMonitor::Extent StabilityMonitor::extent(Vector const& u) const {
-  SaidOfExtent said{own_product(u, u), largest_of(u)};
-  if (body_.shared()) ranks::add(said);
+  ExtentReduction said{own_product(u, u), largest_of(u)};
+  if (body_.shared()) comm::allreduce_sum(said);
   return {said.square.value(), said.most};
 }
 
@@ -206,7 +206,7 @@ StabilityMonitor::Estimate StabilityMonitor::iterate(Vector const& x, Vector con
 }
 
 bool StabilityMonitor::should_look(double dt) const {
-  return dt < step() || pace_ < brisk_pace || std::fmod(steps_, glance) == 0;
+  return dt < step() || measurement_spacing_ < brisk_pace || std::fmod(steps_, glance) == 0;
 }
 
 /// v.K.v = -sum m v.(da/dt) from the change over the last step dt, with the velocity at its middle, and a.M.a of free
@@ -214,7 +214,7 @@ bool StabilityMonitor::should_look(double dt) const {
 void StabilityMonitor::look_at_unrest(double dt) {
   auto const& s = body_.state();
   int const D = s.dimension;
-  SumsOfUnrest sums;
+  EnergyOscillationSums sums;
   sums.held = body_.boundary().square_of_held(s);
   sums.of_particles = sums_over_slots<3>(false, body_.own(), [&](Index i, double* x) {
     double stiff = 0, fast = 0;
@@ -227,12 +227,12 @@ void StabilityMonitor::look_at_unrest(double dt) {
     x[1] = body_.mass(i) * fast;
     x[2] = body_.kinetic_energy_of(i);
   });
-  if (body_.shared()) ranks::add(sums);
+  if (body_.shared()) comm::allreduce_sum(sums);
   auto const& of = sums.of_particles;
   double const held = body_.boundary().square_of_surface(s) + sums.held.value();
   double const now = 0.125 * (std::abs(of.value(0)) / (dt * dt) + of.value(1) - held);
-  unrest_ = std::max(unrest_, now);
-  lately_ = std::max(lately_, now);
+  energy_oscillation_ = std::max(energy_oscillation_, now);
+  recent_max_ = std::max(recent_max_, now);
   energy_ = std::max(energy_, of.value(2));  // a body at rest at the last measurement may have been hit
 }
 
@@ -243,7 +243,7 @@ double StabilityMonitor::unrest_at_start(Vector const& x, Vector const& rest, do
   each_particle([&](Index i) {
     for (int c = 0; c < s.dimension; ++c) v[place(i, c)] = value_at(s.v, i, c);
   });
-  double const most = largest_on_ranks(body_, v);
+  double const most = global_max_norm(body_, v);
   if (!(most > 0)) return 0;
   put_moved(x, size / most, v);
   Vector change = accelerations();
@@ -252,8 +252,8 @@ double StabilityMonitor::unrest_at_start(Vector const& x, Vector const& rest, do
 }
 
 void StabilityMonitor::measure(int cycles, bool at_start) {
-  machine_.keep(body_.state());
-  machine_.observe(body_.state());
+  backend_.keep(body_.state());
+  backend_.observe(body_.state());
   energy_ = std::max(energy_, body_.kinetic_energy() + body_.strain_energy());
   refresh_mode(body_, mode_);
   for (Index k = 0; k < body_.state().mirrored_count; ++k) {  // nothing moves across its mirror plane
@@ -268,34 +268,35 @@ void StabilityMonitor::measure(int cycles, bool at_start) {
   auto const spacing = body_.body().spacing;
   // Small relative to changes of the tangent, large relative to round-off.
   double const size = 1e-6 * *std::min_element(spacing.begin(), spacing.begin() + body_.state().dimension);
-  if (at_start) unrest_ = unrest_at_start(x, rest, size);
+  if (at_start) energy_oscillation_ = unrest_at_start(x, rest, size);
   for (int k = 0; k < cycles; ++k) {
     Estimate const found = iterate(x, rest, size);
     if (!(found.square > 0) || !std::isfinite(found.square)) break;
     frequency_ = std::sqrt(found.square + std::min(found.error, accuracy * found.square));
     if (found.error < accuracy * found.square) break;
   }
-  machine_.restore(body_.state());
-  steps_ = waited_ = 0;
+  backend_.restore(body_.state());
+  steps_ = steps_since_measurement_ = 0;
 }
 
 void StabilityMonitor::update(double dt, int halvings) {
   if (is_given()) return;
   ++steps_;
-  waited_ += dt * frequency() / (2 * calm_share);
+  steps_since_measurement_ += dt * frequency() / (2 * calm_share);
   if (halvings == 0 && should_look(dt)) look_at_unrest(dt);
-  lately_age_ += dt * frequency() / (2 * calm_share);
-  if (lately_age_ > lasting) {
-    if (lately_ < calmer * unrest_) unrest_ = lately_;
-    lately_ = lately_age_ = 0;
+  recent_max_age_ += dt * frequency() / (2 * calm_share);
+  if (recent_max_age_ > lasting) {
+    if (recent_max_ < calmer * energy_oscillation_) energy_oscillation_ = recent_max_;
+    recent_max_ = recent_max_age_ = 0;
   }
-  caution_ = halvings > 0 ? std::max(least_caution, halved * caution_) : std::min(1.0, recovery * caution_);
+  step_reduction_ =
+      halvings > 0 ? std::max(least_caution, halved * step_reduction_) : std::min(1.0, recovery * step_reduction_);
   double const most = body_.largest_change();
   bool const strained = most >= (steps_ < fewest ? much : change);
-  double const waited = pace_ == 0 ? steps_ : waited_;
+  double const waited = measurement_spacing_ == 0 ? steps_ : steps_since_measurement_;
   if (waited < interval_ && !strained) return;
   double const before = frequency_;
-  pace_ = steps_;
+  measurement_spacing_ = steps_;
   measure(later_cycles, false);
   bool const calm = !strained && std::abs(frequency_ - before) < steady * before;
   interval_ = calm ? std::min(2 * interval_, longest) : shortest;
@@ -304,10 +305,10 @@ void StabilityMonitor::update(double dt, int halvings) {
 double StabilityMonitor::frequency() const { return lift * std::max(frequency_, start_); }
 
 double StabilityMonitor::step() const {
-  return step_at(pace_ == 0              ? first_share
-                 : pace_ >= brisk_pace   ? calm_share
-                 : pace_ >= violent_pace ? brisk_share
-                                         : violent_share);
+  return step_at(measurement_spacing_ == 0              ? first_share
+                 : measurement_spacing_ >= brisk_pace   ? calm_share
+                 : measurement_spacing_ >= violent_pace ? brisk_share
+                                                        : violent_share);
 }
 
 double StabilityMonitor::calm_step() const { return step_at(calm_share); }
@@ -317,12 +318,21 @@ double StabilityMonitor::step_at(double fraction) const {
   // Viscous forces of the last step reduce the limit: sqrt(1 + xi^2) - xi, with xi their fraction of critical damping.
   auto const& s = body_.state();
   double const xi = 0.5 * frequency() * s.viscosity.fluctuation / (s.constants.kappa_local + 4 * s.constants.mu / 3);
-  return caution_ * fraction * (std::sqrt(1 + xi * xi) - xi) * 2 / frequency();
+  return step_reduction_ * fraction * (std::sqrt(1 + xi * xi) - xi) * 2 / frequency();
 }
 
 std::vector<double> StabilityMonitor::state() const {
-  std::vector<double> s{frequency_, start_,  steps_,  pace_,   caution_,   interval_,
-                        waited_,    energy_, unrest_, lately_, lately_age_};
+  std::vector<double> s{frequency_,
+                        start_,
+                        steps_,
+                        measurement_spacing_,
+                        step_reduction_,
+                        interval_,
+                        steps_since_measurement_,
+                        energy_,
+                        energy_oscillation_,
+                        recent_max_,
+                        recent_max_age_};
   if (is_given()) return s;
   return with_mode(body_, std::move(s), mode_);
 }
@@ -333,20 +343,20 @@ void StabilityMonitor::load(StateReader& reader, std::string const& name) {
   if (is_given()) {
     reader.get(name, state);
   } else {
-    reader.get_to_deal(name, state);
+    reader.get_on_root(name, state);
     state = without_mode(body_, numbers, state, mode_);
   }
   frequency_ = state[0];
   start_ = state[1];
   steps_ = state[2];
-  pace_ = state[3];
-  caution_ = state[4];
+  measurement_spacing_ = state[3];
+  step_reduction_ = state[4];
   interval_ = state[5];
-  waited_ = state[6];
+  steps_since_measurement_ = state[6];
   energy_ = state[7];
-  unrest_ = state[8];
-  lately_ = state[9];
-  lately_age_ = state[10];
+  energy_oscillation_ = state[8];
+  recent_max_ = state[9];
+  recent_max_age_ = state[10];
 }
 
 }  // namespace piola::nodal

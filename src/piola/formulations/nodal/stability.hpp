@@ -30,7 +30,7 @@ class StabilityMonitor {
   static constexpr double least_of_limit = 0.2;
 
   /// Measures from a random start, unless the case prescribes the step.
-  StabilityMonitor(NodalBody& body, Machine const& machine);
+  StabilityMonitor(NodalBody& body, Backend const& backend);
 
   /// Registers the step dt [s] just taken, and repeats due measurements. `halvings`: number of halvings of the step.
   void update(double dt, int halvings);
@@ -45,7 +45,7 @@ class StabilityMonitor {
   double energy() const { return energy_; }
   /// Energy error indicator B = (v.K.v + a.M.a) / 8 [J/s2], which a vibration conserves: Verlet steps make its energy
   /// oscillate by B dt^2.
-  double unrest() const { return unrest_; }
+  double energy_oscillation() const { return energy_oscillation_; }
 
   /// State that determines the next step, except the strains of the last measurement, which are a field. Collective;
   /// complete on rank 0.
@@ -87,22 +87,22 @@ class StabilityMonitor {
   Vector positions() const;
   void put_moved(Vector const& x, double scale, Vector const& mode);
   double product(Vector const& u, Vector const& v) const;
-  exec::ExactSums<1> own_product(Vector const& u, Vector const& v) const;
+  exec::ReproducibleSums<1> own_product(Vector const& u, Vector const& v) const;
 
   NodalBody& body_;
-  Machine const& machine_;
-  Vector mode_;            ///< empty if nothing is measured
-  double frequency_ = 0;   ///< 1/s, at the last measurement
-  double start_ = 0;       ///< 1/s, at the start
-  double steps_ = 0;       ///< since the last measurement
-  double caution_ = 1;     ///< remaining fraction of the step after halved steps
-  double pace_ = 0;        ///< steps between the last two measurements; 0: only one so far
-  double interval_ = 0;    ///< steps to the next measurement while strains change little
-  double waited_ = 0;      ///< steps since the last measurement, in equivalents of slow steps
-  double energy_ = 0;      ///< largest measured energy [J]
-  double unrest_ = 0;      ///< see unrest() [J/s2]
-  double lately_ = 0;      ///< largest indicator since its last reset or confirmation
-  double lately_age_ = 0;  ///< age of that, in equivalents of slow steps
+  Backend const& backend_;
+  Vector mode_;                         ///< empty if nothing is measured
+  double frequency_ = 0;                ///< 1/s, at the last measurement
+  double start_ = 0;                    ///< 1/s, at the start
+  double steps_ = 0;                    ///< since the last measurement
+  double step_reduction_ = 1;           ///< remaining fraction of the step after halved steps
+  double measurement_spacing_ = 0;      ///< steps between the last two measurements; 0: only one so far
+  double interval_ = 0;                 ///< steps to the next measurement while strains change little
+  double steps_since_measurement_ = 0;  ///< steps since the last measurement, in equivalents of slow steps
+  double energy_ = 0;                   ///< largest measured energy [J]
+  double energy_oscillation_ = 0;       ///< see unrest() [J/s2]
+  double recent_max_ = 0;               ///< largest indicator since its last reset or confirmation
+  double recent_max_age_ = 0;           ///< age of that, in equivalents of slow steps
 };
 
 }  // namespace piola::nodal

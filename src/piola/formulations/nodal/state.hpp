@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/device_loops.hpp"
 #include "piola/exec/field.hpp"
-#include "piola/exec/parallel.hpp"
 #include "piola/formulations/nodal/lattice.hpp"
 #include "piola/materials/registry.hpp"
-#include "piola/mechanics/held.hpp"
-#include "piola/neighbours/tables.hpp"
+#include "piola/mechanics/prescribed_data.hpp"
+#include "piola/neighbours/pair_table_views.hpp"
 
 namespace piola {
-class SurfaceHold;
+class SurfaceConstraint;
 class HaloPlan;
 }
 
@@ -26,7 +26,7 @@ struct Constants {
 };
 
 /// Layout of the field `history` of solids in rate form, at the end of the last step.
-struct SolidPlaces {
+struct HistoryLayout {
   /// Values of the cell: pressure, positive in compression [Pa]; specific internal energy [J/kg].
   enum : int { pressure, energy, of_cell };
   /// Values of a point, relative to point(q, D).
@@ -89,17 +89,17 @@ struct BodyState {
   FieldRef viscous, viscous_kept;  ///< see ViscousHistory; and at the start of the step. Without data: no viscosity
   FieldRef kept;                   ///< x, v, a and the least J at the start of the step
   FieldRef history,
-      history_kept;  ///< see SolidPlaces; and at the start of the step. Without data: no solids in rate form
+      history_kept;  ///< see HistoryLayout; and at the start of the step. Without data: no solids in rate form
 
-  HeldDirection* held = nullptr;
+  PrescribedDirection* held = nullptr;
   Index held_count = 0;
   LoadedParticle* loaded = nullptr;
   Index loaded_count = 0;
   double const* loaded_centroid = nullptr;  ///< [loaded][D]: of the cell, relative to the particle [m]
   MirroredParticle const* mirrored = nullptr;
   Index mirrored_count = 0;
-  SurfaceHold* surface = nullptr;  ///< surface places that supports hold; nullptr: none
-  void (*kick_surface)(SurfaceHold& surface, BodyState& body, bool first, double dt) = nullptr;
+  SurfaceConstraint* surface = nullptr;  ///< surface places that supports hold; nullptr: none
+  void (*kick_surface)(SurfaceConstraint& surface, BodyState& body, bool first, double dt) = nullptr;
   bool follows = false;       ///< whether some load is a follower load
   bool marks = false;         ///< forces at x also store F^T F in C_measured
   double* partial = nullptr;  ///< room for the partial results of blocks
@@ -117,7 +117,7 @@ struct ProjectionFields {
 };
 
 /// The loops of one instruction set. Every entry accepts bodies of 1, 2 or 3 dimensions.
-struct Machine {
+struct Backend {
   char const* name;
   int lanes;
   void (*step)(BodyState& body, double dt);   ///< one step of one body
@@ -132,10 +132,10 @@ struct Machine {
 
 /// The instruction set of that name, or the best one of this processor for "auto"; nullptr if it is unknown or not
 /// usable here.
-Machine const* find_machine(char const* name);
+Backend const* find_backend(char const* name);
 /// Names of the instruction sets in this program that this processor can run, best first; ends with nullptr.
-char const* const* machine_names();
-/// As find_machine; throws InputError if there is none.
-Machine const& choose_machine(char const* name);
+char const* const* backend_names();
+/// As find_backend; throws InputError if there is none.
+Backend const& choose_backend(char const* name);
 
 }  // namespace piola::nodal

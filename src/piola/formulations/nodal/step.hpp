@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/domain/halo.hpp"
 #include "piola/formulations/nodal/boundary_passes.hpp"
 #include "piola/formulations/nodal/mirror_passes.hpp"
+#include "piola/formulations/nodal/mixed_material_lanes.hpp"
 #include "piola/formulations/nodal/projection.hpp"
-#include "piola/formulations/nodal/shared_lanes.hpp"
 #include "piola/formulations/nodal/stress_points.hpp"
-#include "piola/parallel/halo.hpp"
 
 /// One step of the nodal formulation: kick, drift, forces, kick. Theory: docs/theory/nodal.md.
-namespace piola::nodal::inline PIOLA_MACHINE {
+namespace piola::nodal::inline PIOLA_BACKEND {
 
 template <int D>
 class Step {
@@ -99,7 +99,7 @@ class Step {
   void copy_histories(FieldRef const& viscous, FieldRef const& viscous_to, FieldRef const& solid,
                       FieldRef const& solid_to) const {
     copy_history(viscous, viscous_to, ViscousHistory<D>::size);
-    copy_history(solid, solid_to, SolidPlaces::point(Quadratic<D>::points, D));
+    copy_history(solid, solid_to, HistoryLayout::point(Quadratic<D>::points, D));
   }
   void copy_history(FieldRef const& from, FieldRef const& to, int values) const {
     if (from.data != nullptr) exec::for_each(b_.slots, CopyValues{read(from), write(to), values});

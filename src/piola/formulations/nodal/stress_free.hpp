@@ -5,7 +5,7 @@
 
 /// Plane stress and uniaxial stress: the stretch of the missing directions at one point. Theory: docs/theory/nodal.md,
 /// section 2.
-namespace piola::nodal::inline PIOLA_MACHINE {
+namespace piola::nodal::inline PIOLA_BACKEND {
 
 /// Finds the stretch l of the directions from D on with P_cc(F, l) = 0. In: F with any value; out: F with the solution.
 /// Secant steps from the stretch of linear elasticity; each lane iterates and stops independently.

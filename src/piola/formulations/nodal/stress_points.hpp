@@ -8,7 +8,7 @@
 #include "piola/math/embedding.hpp"
 
 /// The energy of a cell, from a few points of it. Theory: docs/theory/nodal.md, section 2.
-namespace piola::nodal::inline PIOLA_MACHINE {
+namespace piola::nodal::inline PIOLA_BACKEND {
 
 /// Energy of a cell from its points:
 ///   W = mean_q [ Wiso(F_q) + kappa_l ln(Jm / J_q) ] + kappa/2 (Jm - 1)^2,   Jm = mean_q J_q,

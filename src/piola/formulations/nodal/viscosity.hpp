@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/view.hpp"
+#include "piola/exec/field_view.hpp"
 #include "piola/formulations/nodal/cell_points.hpp"
 #include "piola/formulations/nodal/state.hpp"
 
 /// Dissipation of a cell, off by default. Theory: docs/theory/nodal.md, section 5.
-namespace piola::nodal::inline PIOLA_MACHINE {
+namespace piola::nodal::inline PIOLA_BACKEND {
 
 /// History of a cell. Per point: the strain E and the viscous stress S at the end of the last step. Per cell: the mean
 /// in-plane volume ratio, the shock pressure Q, and the dissipated energy per volume.

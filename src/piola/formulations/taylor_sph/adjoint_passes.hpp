@@ -7,7 +7,7 @@
 /// The adjoint exchange: forces leave a cell by the transpose of the gradient that strains it, so that energy and
 /// momenta balance on any set of particles. A cell's virtual particle is its single point; gradients are those of its
 /// corners instead of kernel sums. Theory, with the energy balance: docs/theory/taylor-sph.md.
-namespace piola::taylor_sph::inline PIOLA_MACHINE {
+namespace piola::taylor_sph::inline PIOLA_BACKEND {
 
 /// The rotation of a spin (L - L^T)/2 over dt by Cayley's formula, (1 - W/2)^-1 (1 + W/2): orthogonal to round-off.
 template <int D, class T>
@@ -259,7 +259,7 @@ struct StrainCells {
     Mat<D, Lanes> L{};
     for (int n = 0; n < cells.corners; ++n) L = L + outer(corner.v[n], cell.g[n]);
     Lanes own[R::values];
-    load_own<D>(virtual_, i, own);
+    load_local<D>(virtual_, i, own);
     SymMat<D, Lanes> t;
     for (int c = 0; c < R::stress; ++c) t.c[c] = own[R::s + c];
     Lanes across = piola::load<Lanes>(memory.across + i);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/taylor_sph/body.hpp"
-#include "piola/base/problems.hpp"
-#include "piola/exec/set_up_loop.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/exec/host_loops.hpp"
 #include "piola/materials/laws.hpp"
 #include "piola/mechanics/prescribed.hpp"
 #include <algorithm>
@@ -30,8 +30,8 @@ bool is_whole_lattice(ParticleSet const& set, Body const& body) {
   return body.last - body.first - doubled == full;
 }
 
-TaylorBody::TaylorBody(Assembly const& assembly, std::size_t body, Options const& options, Machine const& machine)
-    : body_(assembly.particles.bodies[body]), options_(options), machine_(&machine), boundary_(assembly, body) {
+TaylorBody::TaylorBody(Assembly const& assembly, std::size_t body, Options const& options, Backend const& backend)
+    : body_(assembly.particles.bodies[body]), options_(options), backend_(&backend), boundary_(assembly, body) {
   auto const& set = assembly.particles;
   auto const part = [&](auto const& all) {
     return std::decay_t<decltype(all)>(all.begin() + body_.first, all.begin() + body_.last);
@@ -39,7 +39,7 @@ TaylorBody::TaylorBody(Assembly const& assembly, std::size_t body, Options const
   X_ = part(set.X);
   kernel_volume_ = part(set.kernel_volume);
   if (!set.crack_side.empty()) crack_side_ = part(set.crack_side);
-  shuffle_ = shuffle_now();
+  shuffle_ = current_shuffle();
   for (auto const& crack : set.cracks)
     if (crack.body == static_cast<int>(body)) cracks_.push_back(crack);
   state_.dimension = set.dimension;
@@ -150,12 +150,12 @@ void TaylorBody::place_initially(Assembly const& assembly) {
   s.displacement.assign(s.v.size(), 0);
   s.x_of_lists = s.x_of_cells = s.x;
   for (Index const corner : cells_.corner) s.corners.push_back(corner);
-  s.books.assign(16, 0);
+  s.energy_totals.assign(16, 0);
   restore(s);
   start_ = positions();
   free_ = !boundary_.holds();
   double now[MotionSums::size];
-  machine_->motion(state_, now);
+  backend_->motion(state_, now);
   for (std::size_t k = 0; k < 6; ++k) momentum_[k] = now[MotionSums::v + k];
 }
 
@@ -176,7 +176,7 @@ void TaylorBody::order_slots(std::vector<Index> const& on_boundary) {
     local_of_[at(slot)] = i;
   };
   Index slot = 0;
-  for (std::size_t const k : dealt_numbers(inner.size(), shuffle_)) put(slot++, inner[k]);
+  for (std::size_t const k : shuffled_indices(inner.size(), shuffle_)) put(slot++, inner[k]);
   slot = state_.boundary.first;
   for (Index const i : on_boundary) put(slot++, i);
   id_in_slot_.assign(local_of_.size(), SlotOrder::no_particle);
@@ -197,7 +197,7 @@ void TaylorBody::order_cells() {
   // Lanes without a cell repeat the last one.
   cell_in_slot_.assign(at(state_.virtuals.last), cells_.count() - 1);
   Index slot = 0;
-  for (std::size_t const cell : dealt_numbers(slot_of_cell_.size(), shuffle_)) {
+  for (std::size_t const cell : shuffled_indices(slot_of_cell_.size(), shuffle_)) {
     cell_in_slot_[at(slot)] = static_cast<Index>(cell);
     slot_of_cell_[cell] = slot++;
   }
@@ -247,7 +247,7 @@ void TaylorBody::arrange(Points const& x_of_cells) {
 }
 
 void TaylorBody::fill_cell_tables(Points const& x) {
-  int const lanes = machine_->lanes;
+  int const lanes = backend_->lanes;
   corner_.assign(at(state_.virtuals.last) * cells_.corners, 0);
   reference_quality_.assign(at(state_.virtuals.last), 1);
   double factorial = 1;
@@ -297,7 +297,7 @@ void TaylorBody::fill_cell_memory() {
 
 void TaylorBody::fill_hourglass_tables() {
   if (boxes_.count() == 0) return;
-  int const lanes = machine_->lanes, corners = boxes_.corners;
+  int const lanes = backend_->lanes, corners = boxes_.corners;
   Index const boxes = aligned(boxes_.count());
   box_corner_.assign(at(boxes) * corners, 0);
   box_of_.assign(at(state_.boundary.last) * corners, -1);
@@ -333,7 +333,7 @@ void TaylorBody::step_adjoint(Impulse const& before, double time, double dt) {
           acceleration_.at(slot_of_[at(i)], c) += 0.5 * f[static_cast<std::size_t>(c)] / mass_[at(i)];
       });
   }
-  machine_->adjoint_step(state_, dt);
+  backend_->adjoint_step(state_, dt);
   work_ += state_.work;
   add_impulses(time, dt, &pushes);
   find_reactions(before, dt);
@@ -347,12 +347,12 @@ void TaylorBody::step(double time, double dt) {
   if (options_.adjoint) return step_adjoint(before_step, time, dt);
   if (state_.k.loaded) prepare_loads(time + 0.5 * dt);
   prepare_boundary(time, dt, 0.5 * dt);
-  machine_->half_step(state_, dt);
-  machine_->full_step(state_, dt);
-  if (options_.hourglass > 0 && boxes_.count() > 0) machine_->filter(state_);
+  backend_->half_step(state_, dt);
+  backend_->full_step(state_, dt);
+  if (options_.hourglass > 0 && boxes_.count() > 0) backend_->filter(state_);
   // Normals of the end of the step.
   if (state_.k.moving) prepare_boundary(time, dt, 0);
-  machine_->impose(state_);
+  backend_->impose(state_);
   add_impulses(time, dt);
   if (free_ && state_.k.moving && options_.conserve) conserve_momentum();
   find_reactions(before_step, dt);
@@ -393,7 +393,7 @@ void TaylorBody::damp(double factor) {
 }
 
 double TaylorBody::kinetic_energy() const {
-  return exec_host::sum_of(particles(), [&](Index i) {
+  return exec_host::parallel_sum(particles(), [&](Index i) {
     auto const velocity = v(i);
     return 0.5 * mass_[at(i)] * dot(velocity, velocity);
   });
@@ -483,7 +483,7 @@ int TaylorBody::neighbours(Index i) const {
 CellEnergy TaylorBody::cell_energy() const {
   if (!options_.adjoint) return {};
   BodyState state = state_;
-  return machine_->cell_energy(state);
+  return backend_->cell_energy(state);
 }
 
 double TaylorBody::staggering_energy() const { return last_step_ * last_step_ / 8 * cell_energy().square; }

@@ -2,12 +2,12 @@
 #pragma once
 #include "piola/formulations/assembly.hpp"
 #include "piola/formulations/formulation.hpp"
-#include "piola/formulations/taylor_sph/boundary.hpp"
+#include "piola/formulations/taylor_sph/boundary_conditions.hpp"
 #include "piola/formulations/taylor_sph/options.hpp"
 #include "piola/formulations/taylor_sph/state.hpp"
 #include "piola/math/tensor.hpp"
-#include "piola/mechanics/actions.hpp"
-#include "piola/neighbours/cells.hpp"
+#include "piola/mechanics/resultants.hpp"
+#include "piola/neighbours/mesh_cells.hpp"
 #include <array>
 #include <optional>
 #include <span>
@@ -24,8 +24,8 @@ struct Snapshot {
   std::vector<double> corners;                    ///< of the cells
   std::vector<double> cell_stress, cell_across;   ///< adjoint: SymMat<D>, 1 per cell; empty: means of the corners
   std::vector<double> cell_hourglass;             ///< adjoint, boxes: patterns * D per cell
-  std::vector<double> books;  ///< work, power, filter loss, list updates, triangulations, steps, hasty updates,
-                              ///< momenta, exchange loss, last step
+  std::vector<double> energy_totals;  ///< work, power, filter loss, list updates, triangulations, steps, hasty updates,
+                                      ///< momenta, exchange loss, last step
 };
 
 /// Wall time in addition to the steps [s].
@@ -34,7 +34,7 @@ struct SetupSeconds {
 };
 
 /// A particle that no longer fits into the cells, and the reason in words.
-struct Lost {
+struct DetachedParticle {
   Index particle = 0;
   std::string what;
 };
@@ -46,7 +46,7 @@ bool is_whole_lattice(ParticleSet const& set, Body const& body);
 class TaylorBody {
  public:
   /// Reads `assembly` only here. Throws InputError (too few neighbours, shapes that cannot be triangulated).
-  TaylorBody(Assembly const& assembly, std::size_t body, Options const& options, Machine const& machine);
+  TaylorBody(Assembly const& assembly, std::size_t body, Options const& options, Backend const& backend);
   TaylorBody(TaylorBody const&) = delete;
   TaylorBody& operator=(TaylorBody const&) = delete;
 
@@ -55,12 +55,12 @@ class TaylorBody {
   /// Multiplies the velocities that are not prescribed, and adds the lost energy to damping_loss().
   void damp(double factor);
   /// Adds to the velocity of a particle [m/s]; call pushed() after the last one.
-  void push(Index i, std::array<double, 3> const& change);
+  void add_velocities(Index i, std::array<double, 3> const& change);
   void pushed() { power_ = boundary_power(); }
   double kinetic_energy() const;                         ///< [J]
   double damping_loss() const { return damping_loss_; }  ///< [J]
   double stable_time_step() const;                       ///< cfl * spacing / c in the current configuration [s]
-  double next_release(double time) const { return boundary_.next_release(time); }
+  double next_end_time(double time) const { return boundary_.next_end_time(time); }
 
   // Particles are numbered from the body's first particle on.
   Index particles() const { return static_cast<Index>(X_.size()); }
@@ -79,7 +79,7 @@ class TaylorBody {
   /// Adjoint: dt^2/8 sum V L:D:L [J]. The sum of energies minus this never rises, except by external work.
   double staggering_energy() const;
 
-  std::vector<double> parting() const;  ///< by particle: strain drift; zeros in the fixed configuration
+  std::vector<double> strain_drift() const;  ///< by particle: strain drift; zeros in the fixed configuration
 
   Snapshot snapshot() const;
   void restore(Snapshot const& snapshot);
@@ -89,17 +89,17 @@ class TaylorBody {
   Options const& options() const { return options_; }
   double external_work() const { return work_; }
   /// Adds the impulses of supports and loads in the last step.
-  void add_actions(Actions& actions) const;
+  void add_actions(Resultants& actions) const;
   long list_updates() const { return list_updates_; }
   long triangulations() const { return triangulations_; }
   SetupSeconds const& seconds() const { return seconds_; }
   bool inverted() const { return measures_.inverted; }
   /// Set once the cells or lists of a moving body cannot be rebuilt.
-  std::optional<Lost> const& lost() const { return lost_; }
+  std::optional<DetachedParticle> const& lost() const { return lost_; }
   Index worst_corner() const;  ///< a particle of the cell with the smallest volume
   std::size_t bytes() const;
   /// Communication pattern of the body; empty if not modelled: the exchange of estimates.
-  Talk talk() const;
+  CommPattern comm_pattern() const;
   Index local_of(Index slot) const { return local_of_[at(slot)]; }
   Index virtual_particles() const { return state_.virtual_count; }
   double mean_sources() const { return to_virtual_.mean_count(); }
@@ -130,7 +130,7 @@ class TaylorBody {
   std::span<double> patterns_of(Index cell) const;
   void restore_cells(Snapshot const& snapshot);
   void step_adjoint(Impulse const& before, double time, double dt);
-  std::vector<double> reach_of_cells(Points const& x) const;
+  std::vector<double> search_radius_in_cells(Points const& x) const;
   std::vector<double> reach_of_particles(std::vector<double> const& cells) const;
   bool sees(Index particle, Index cell) const;
   void make_lists(Points const& x);
@@ -160,7 +160,7 @@ class TaylorBody {
 
   Body body_;
   Options options_;
-  Machine const* machine_;
+  Backend const* backend_;
   Points X_, start_;  ///< reference positions, and positions at which particles start without stress
   std::vector<double> mass_, kernel_volume_;
   std::vector<Crack> cracks_;
@@ -178,14 +178,14 @@ class TaylorBody {
   Field displacement_{"Displacement", "m", 3, Role::evolved};
   Field acceleration_{"Acceleration", "m/s2", 3, Role::derived};
   Field slot_mass_{"Mass", "kg", 1, Role::reference};
-  SetPairs to_virtual_, to_real_;
+  CrossSetPairs to_virtual_, to_real_;
   std::vector<Index> corner_, box_corner_, box_of_, around_begin_, around_;
   std::vector<double> cell_across_, cell_force_, cell_gradient_, cell_hourglass_;
   std::vector<double> reference_square_, reference_quality_, pattern_, partial_;
   FailureSlot failure_;
   BodyState state_;
   CellMeasures measures_;
-  std::optional<Lost> lost_;
+  std::optional<DetachedParticle> lost_;
   double first_spacing_ = 0;                   ///< at the start [m]
   bool free_ = false;                          ///< no support: momentum changes by loads alone
   std::array<double, 6> momentum_{};           ///< linear and angular, which a free body must conserve
@@ -193,7 +193,7 @@ class TaylorBody {
   double work_ = 0, power_ = 0, damping_loss_ = 0;
   double last_step_ = 0;  ///< [s]
   long list_updates_ = 0, triangulations_ = 0, steps_since_triangulation_ = 0;
-  long hasty_updates_ = 0;  ///< consecutive steps with list updates
+  long successive_list_updates_ = 0;  ///< consecutive steps with list updates
   SetupSeconds seconds_;
 };
 

@@ -8,7 +8,7 @@
 /// known value. A free one has, if the sources lie in one layer, only its tangential derivative; the missing derivative
 /// of the velocity along the normal follows from the rate of the traction. These three rules determine all gradients.
 /// Theory: docs/theory/taylor-sph.md.
-namespace piola::taylor_sph::inline PIOLA_MACHINE {
+namespace piola::taylor_sph::inline PIOLA_BACKEND {
 
 /// Components of a symmetric tensor in the order of SymMat, shear ones times sqrt(2): an orthonormal basis.
 template <int D>
@@ -214,7 +214,7 @@ template <int D, class Kernel, class Law>
 struct BoundaryStep {
   Law law;
   Constants k;
-  SetPairTable pairs;
+  CrossSetPairTable pairs;
   double const* virtual_;
   double* real;
   WriteView out_of_plane, drift, displacement;
@@ -227,7 +227,7 @@ struct BoundaryStep {
   PIOLA_FN void operator()(Index i) const {
     using R = Record<D>;
     Lanes own[R::values];
-    load_own<D>(real, i, own);
+    load_local<D>(real, i, own);
     auto const sums = sum_sources<D, Kernel>(pairs, virtual_, i, half_time_place<D>(k, own, drift, i, dt));
     for (int l = 0; l < lane_count && i + l < first + count; ++l) advance(i + l, lane_of<D>(sums, l));
   }

@@ -3,7 +3,7 @@
 #include "piola/formulations/taylor_sph/sums.hpp"
 
 /// Virtual particles of moving bodies: centre, volume and shape of a cell.
-namespace piola::taylor_sph::inline PIOLA_MACHINE {
+namespace piola::taylor_sph::inline PIOLA_BACKEND {
 
 /// Corners of a cell, or of one per lane.
 template <int D>

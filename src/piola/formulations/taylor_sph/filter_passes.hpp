@@ -6,7 +6,7 @@
 /// The hourglass filter damps patterns of velocity and of stress in a box of the lattice that its centre does not see:
 /// the corner values without their linear part. Linear fields stay unchanged on any shape of box (as the hourglass
 /// vectors of Flanagan and Belytschko 1981), and so do fields of one coordinate.
-namespace piola::taylor_sph::inline PIOLA_MACHINE {
+namespace piola::taylor_sph::inline PIOLA_BACKEND {
 
 /// Patterns of signs over the corners of a box: products of two or three of the coordinates' signs.
 template <int D>

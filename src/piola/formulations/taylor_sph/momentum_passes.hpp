@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/view.hpp"
+#include "piola/exec/field_view.hpp"
 #include "piola/formulations/taylor_sph/state.hpp"
 
 /// Linear and angular momentum of a body, and the rigid motion that restores them: interpolation between two sets of
 /// particles does not conserve them.
-namespace piola::taylor_sph::inline PIOLA_MACHINE {
+namespace piola::taylor_sph::inline PIOLA_BACKEND {
 
 /// Sums the motion of the real particles of a range.
 template <int D>

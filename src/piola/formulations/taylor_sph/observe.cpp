@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/taylor_sph/observe.hpp"
-#include "piola/formulations/observed.hpp"
+#include "piola/formulations/common/output_fields.hpp"
 #include "piola/materials/laws.hpp"
 #include <array>
 
@@ -23,11 +23,11 @@ constexpr std::array<std::string_view, 13> offered{
 
 }  // namespace
 
-void observe(TaylorBody const& body, ParticleSet const& set, Observation& o) {
+void observe(TaylorBody const& body, ParticleSet const& set, DiagnosticsSum& o) {
   std::vector<double> pressure;
   auto const& k = body.state().k;
   double const of_particles = k.adjoint ? 1 - k.memory : 1;
-  o.open_body(body.body().name);
+  o.begin_body(body.body().name);
   for (Index i = 0; i < body.particles(); ++i) {
     SymMat<3> const s = body.stress(i);
     double const J = body.volume_ratio(i), V = body.volume(i);
@@ -43,14 +43,14 @@ void observe(TaylorBody const& body, ParticleSet const& set, Observation& o) {
   o.add_oscillation(set, body.body(), pressure);
 }
 
-std::vector<FieldInfo> observed_fields() { return field_infos(offered); }
+std::vector<FieldInfo> output_field_names() { return field_infos(offered); }
 
 void sample(TaylorBody const& body, int body_number, std::string_view field, std::span<double> values) {
-  ObservedField const& found = find_observed(field, offered);
-  std::vector<double> const parting =
-      field == "Parting" ? body.parting() : std::vector<double>(static_cast<std::size_t>(body.particles()));
+  OutputField const& found = find_output_field(field, offered);
+  std::vector<double> const strain_drift =
+      field == "Parting" ? body.strain_drift() : std::vector<double>(static_cast<std::size_t>(body.particles()));
   for (Index i = 0; i < body.particles(); ++i) {
-    ObservedParticle p;
+    ParticleOutput p;
     p.id = static_cast<double>(body.body().first + i);
     p.body = body_number;
     p.neighbours = body.neighbours(i);
@@ -61,7 +61,7 @@ void sample(TaylorBody const& body, int body_number, std::string_view field, std
     p.pressure = pressure_of(p.cauchy);
     p.J = body.volume_ratio(i);
     p.inertia = p.density = body.state().k.rho0 / p.J;
-    p.parting = parting[static_cast<std::size_t>(i)];
+    p.strain_drift = strain_drift[static_cast<std::size_t>(i)];
     put(found, p, values);
   }
 }

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/observation.hpp"
+#include "piola/formulations/common/diagnostics_sum.hpp"
 #include "piola/formulations/taylor_sph/body.hpp"
 #include <span>
 
 /// Observed quantities of a Taylor-SPH state; read-only.
 namespace piola::taylor_sph {
 
-void observe(TaylorBody const& body, ParticleSet const& set, Observation& observation);
+void observe(TaylorBody const& body, ParticleSet const& set, DiagnosticsSum& observation);
 
 /// The fields of Taylor-SPH for frames and probes.
-std::vector<FieldInfo> observed_fields();
+std::vector<FieldInfo> output_field_names();
 
 /// values[id * components + c] of one field for the particles of one body. Throws std::invalid_argument for an unknown
 /// field.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/taylor_sph/options.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/kernels/list.hpp"
 #include <array>
 #include <cmath>
@@ -89,9 +89,9 @@ FormulationInfo info() {
       diagnostics};
   info.cracks = true;
   info.mirrors = false;
-  info.pushable = true;
+  info.can_be_coupled = true;
   info.on_ranks = true;
-  info.scattered = false;  // its hourglass control needs boxes of a lattice
+  info.off_lattice = false;  // its hourglass control needs boxes of a lattice
   return info;
 }
 

@@ -4,7 +4,7 @@
 
 /// Operations on one particle in a step of Taylor-SPH; equations of Serroukh and Mabssout (2022), as corrected in
 /// docs/theory/taylor-sph.md.
-namespace piola::taylor_sph::inline PIOLA_MACHINE {
+namespace piola::taylor_sph::inline PIOLA_BACKEND {
 
 /// Mean over the corners of the cells of the lanes that start at i of values per real particle.
 template <int D>
@@ -29,7 +29,7 @@ template <int D, class Kernel, class Law>
 struct HalfStep {
   Law law;
   Constants k;
-  SetPairTable pairs;
+  CrossSetPairTable pairs;
   CellTable cells;
   double const* real;
   double* virtual_;
@@ -39,7 +39,7 @@ struct HalfStep {
   PIOLA_FN void operator()(Index i) const {
     using R = Record<D>;
     Lanes own[R::values];
-    load_own<D>(virtual_, i, own);
+    load_local<D>(virtual_, i, own);
     Vec<D, Lanes> x;
     for (int c = 0; c < D; ++c) x[c] = own[R::x + c];
     auto const sums = sum_sources<D, Kernel>(pairs, real, i, x);
@@ -85,7 +85,7 @@ template <int D, class Kernel, class Law>
 struct FullStep {
   Law law;
   Constants k;
-  SetPairTable pairs;
+  CrossSetPairTable pairs;
   double const* virtual_;
   double* real;
   WriteView out_of_plane, drift, displacement;
@@ -97,7 +97,7 @@ struct FullStep {
   PIOLA_FN void operator()(Index i) const {
     using R = Record<D>;
     Lanes own[R::values];
-    load_own<D>(real, i, own);
+    load_local<D>(real, i, own);
     auto const sums = sum_sources<D, Kernel>(pairs, virtual_, i, half_time_place<D>(k, own, drift, i, dt));
     auto const e = estimate<D>(sums, k.form);
     Mat<D, Lanes> const L = velocity_gradient<D>(e);

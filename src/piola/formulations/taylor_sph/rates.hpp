@@ -4,7 +4,7 @@
 #include "piola/materials/laws.hpp"
 
 /// The right-hand sides of the conservation laws at one point; T is double or lanes.
-namespace piola::taylor_sph::inline PIOLA_MACHINE {
+namespace piola::taylor_sph::inline PIOLA_BACKEND {
 
 /// L_ab = dv_a / dx_b [1/s].
 template <int D, class T>

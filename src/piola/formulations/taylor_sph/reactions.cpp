@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What supports and loads do to a body: their impulses in the last step.
 #include "piola/formulations/taylor_sph/body.hpp"
-#include "piola/mechanics/shared_reactions.hpp"
+#include "piola/mechanics/distribute_reactions.hpp"
 
 namespace piola::taylor_sph {
 /// Momentum and moment of momentum of the body.
 Impulse TaylorBody::momentum() {
   double now[MotionSums::size];
-  machine_->motion(state_, now);
+  backend_->motion(state_, now);
   Impulse r;
   for (int c = 0; c < 3; ++c) {
     r.linear[static_cast<std::size_t>(c)] = now[MotionSums::v + c];
@@ -52,7 +52,7 @@ void TaylorBody::find_reactions(Impulse const& before, double dt) {
   share_out(rows, rest, of_support_);
 }
 
-void TaylorBody::add_actions(Actions& actions) const {
+void TaylorBody::add_actions(Resultants& actions) const {
   for (std::size_t k = 0; k < actions.supports.size(); ++k) actions.supports[k].add(of_support_[k]);
   for (std::size_t k = 0; k < actions.loads.size(); ++k) actions.loads[k].add(of_load_[k]);
 }

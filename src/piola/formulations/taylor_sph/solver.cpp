@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/taylor_sph/solver.hpp"
-#include "piola/base/problems.hpp"
-#include "piola/formulations/bodies.hpp"
-#include "piola/formulations/checkpoint.hpp"
-#include "piola/formulations/observation.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/domain/communicator.hpp"
+#include "piola/formulations/common/body_resultants.hpp"
+#include "piola/formulations/common/diagnostics_sum.hpp"
+#include "piola/formulations/common/field_checkpoint.hpp"
 #include "piola/formulations/taylor_sph/body.hpp"
 #include "piola/formulations/taylor_sph/observe.hpp"
 #include "piola/materials/laws.hpp"
-#include "piola/mechanics/actions.hpp"
 #include "piola/mechanics/prescribed.hpp"
-#include "piola/parallel/ranks.hpp"
+#include "piola/mechanics/resultants.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ void check(Assembly const& assembly) {
 void check_on_ranks(Body const& body, Options const& options) {
   constexpr std::int64_t most = 2'000'000;
   std::int64_t const particles = body.last - body.first;
-  if (!ranks::several() || options.lattice_cells || particles <= most) return;
+  if (!comm::is_parallel() || options.lattice_cells || particles <= most) return;
   throw InputError(
       fmt::format("body '{}' has {} particles, and triangulations are made by every rank (allowed on several: {} "
                   "particles) - take virtual_particles = \"lattice_cells\", or start it without mpirun",
@@ -52,25 +52,25 @@ class Solver final : public Formulation {
       : particles_(assembly.particles.size()),
         D_(assembly.particles.dimension),
         actions_(assembly.supports, assembly.loads, assembly.rigid_shapes) {
-    Machine const& machine = choose_machine(assembly.machine.c_str());
+    Backend const& backend = choose_backend(assembly.backend.c_str());
     for (std::size_t k = 0; k < assembly.particles.bodies.size(); ++k) {
       bool const whole = is_whole_lattice(assembly.particles, assembly.particles.bodies[k]);
       Options const options = read_options(assembly.formulations[k], D_, assembly.cfl, whole);
       check_on_ranks(assembly.particles.bodies[k], options);
-      bodies_.push_back(std::make_unique<TaylorBody>(assembly, k, options, machine));
+      bodies_.push_back(std::make_unique<TaylorBody>(assembly, k, options, backend));
     }
     set_ = assembly.particles;
   }
 
-  double stable_time_step() const override { return up_to_release_of(bodies_, time_, settled_time_step()); }
-  double settled_time_step() const override {
+  double stable_time_step() const override { return clip_step_to_end_time_of(bodies_, time_, steady_time_step()); }
+  double steady_time_step() const override {
     double dt = std::numeric_limits<double>::infinity();
     for (auto const& body : bodies_) dt = std::min(dt, body->stable_time_step());
     return dt;
   }
-  StepRule step_rule() const override {
-    StepRule rule;
-    rule.settled = rule.first = settled_time_step();
+  StepEstimate step_estimate_of_run() const override {
+    StepEstimate rule;
+    rule.settled = rule.first = steady_time_step();
     rule.limit = fmt::format("waves: run.cfl spacing / c with run.cfl = {}", bodies_.front()->options().cfl);
     return rule;
   }
@@ -96,17 +96,17 @@ class Solver final : public Formulation {
   void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
     visit(ids, [&](std::size_t k, TaylorBody const& body, Index i) { m[k] = body.mass(i); });
   }
-  void push(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
-    visit(ids, [&](std::size_t k, TaylorBody& body, Index i) { body.push(i, change[k]); });
+  void add_velocities(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
+    visit(ids, [&](std::size_t k, TaylorBody& body, Index i) { body.add_velocities(i, change[k]); });
     for (auto const& body : bodies_) body->pushed();
   }
   double kinetic_energy() const override {
-    return sum_of(bodies_, [](auto const& body) { return body.kinetic_energy(); });
+    return parallel_sum(bodies_, [](auto const& body) { return body.kinetic_energy(); });
   }
 
   std::optional<Failure> failure() const override;
   Diagnostics diagnose() const override {
-    Observation all;
+    DiagnosticsSum all;
     std::array<double, 5> more{};
     for (auto const& body : bodies_) {
       observe(*body, set_, all);
@@ -114,7 +114,7 @@ class Solver final : public Formulation {
       more[1] += static_cast<double>(body->list_updates());
       more[2] += static_cast<double>(body->triangulations());
       more[3] += body->staggering_energy();
-      for (double const p : body->parting()) more[4] = std::max(more[4], p);
+      for (double const p : body->strain_drift()) more[4] = std::max(more[4], p);
     }
     Diagnostics d = all.finish();
     d.stabilisation_loss = more[0];
@@ -126,7 +126,7 @@ class Solver final : public Formulation {
     return d;
   }
 
-  std::vector<FieldInfo> fields() const override { return observed_fields(); }
+  std::vector<FieldInfo> fields() const override { return output_field_names(); }
   void sample(std::string_view field, std::span<double> values) const override {
     for (std::size_t k = 0; k < bodies_.size(); ++k)
       taylor_sph::sample(*bodies_[k], static_cast<int>(k), field, values);
@@ -136,8 +136,8 @@ class Solver final : public Formulation {
   void load(StateReader& reader) override;
 
   int stages_per_step() const override { return 2; }
-  std::optional<Talk> talk(std::size_t body) const override { return bodies_[body]->talk(); }
-  std::vector<std::pair<std::string, double>> costs() const override {
+  std::optional<CommPattern> comm_pattern(std::size_t body) const override { return bodies_[body]->comm_pattern(); }
+  std::vector<std::pair<std::string, double>> timings() const override {
     SetupSeconds sum;
     for (auto const& body : bodies_) {
       sum.triangulation += body->seconds().triangulation;
@@ -146,7 +146,7 @@ class Solver final : public Formulation {
     return {{"triangulation", sum.triangulation}, {"neighbour_lists", sum.lists}};
   }
   std::size_t memory_bytes() const override {
-    return sum_of(bodies_, [](auto const& body) { return body.bytes(); });
+    return parallel_sum(bodies_, [](auto const& body) { return body.bytes(); });
   }
 
  private:
@@ -162,7 +162,7 @@ class Solver final : public Formulation {
   std::int64_t particles_;
   int D_;
   ParticleSet set_;
-  Actions actions_;
+  Resultants actions_;
   std::vector<std::unique_ptr<TaylorBody>> bodies_;
   double time_ = 0;  ///< at the end of the last step [s]
 };
@@ -207,7 +207,7 @@ void each_array(S& snapshot, std::size_t body, F const& f) {
   f(fmt::format("body{}_cell_stress", body), snapshot.cell_stress);
   f(fmt::format("body{}_cell_out_of_plane_stress", body), snapshot.cell_across);
   f(fmt::format("body{}_cell_hourglass", body), snapshot.cell_hourglass);
-  f(fmt::format("body{}_books", body), snapshot.books);
+  f(fmt::format("body{}_books", body), snapshot.energy_totals);
 }
 
 void Solver::save(StateWriter& writer) const {

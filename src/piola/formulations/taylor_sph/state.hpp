@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/device_loops.hpp"
 #include "piola/exec/field.hpp"
-#include "piola/exec/parallel.hpp"
 #include "piola/kernels/registry.hpp"
 #include "piola/materials/registry.hpp"
-#include "piola/neighbours/set_pairs.hpp"
+#include "piola/neighbours/cross_set_pairs.hpp"
 
 /// State of one body for the loops: plain data, independent of the instruction set.
 namespace piola::taylor_sph {
@@ -12,7 +12,7 @@ namespace piola::taylor_sph {
 /// Estimate of values and gradients from the sources around a target.
 enum class GradientForm {
   linear_exact,  ///< about the centroid of the weights: linear fields exactly, on any set
-  printed        ///< eqs. (19), (20): the interpolated value is used at the target's position
+  as_published   ///< eqs. (19), (20): the interpolated value is used at the target's position
 };
 
 struct Constants {
@@ -57,7 +57,7 @@ struct BoundaryItem {
   double along[6][3], normal[6][3];
 };
 
-/// Cells, whose centres are the virtual particles, interleaved by lanes like SetPairTable.
+/// Cells, whose centres are the virtual particles, interleaved by lanes like CrossSetPairTable.
 struct CellTable {
   int corners = 0;
   bool simplices = true;
@@ -124,7 +124,7 @@ struct BodyState {
   FieldRef displacement;       ///< in the fixed configuration, where positions are constant [m]
   FieldRef acceleration;       ///< of loads, at half time [m/s2]
   FieldRef mass;               ///< [kg]
-  SetPairTable to_virtual, to_real;
+  CrossSetPairTable to_virtual, to_real;
   CellTable cells;
   HourglassTable hourglass;
   CellsAround around;
@@ -151,7 +151,7 @@ struct CellEnergy {
 };
 
 /// The loops of one instruction set. Every entry accepts bodies of 1, 2 or 3 dimensions.
-struct Machine {
+struct Backend {
   char const* name;
   int lanes;
   void (*half_step)(BodyState& body, double dt);           ///< eqs. (21): real to virtual
@@ -167,10 +167,10 @@ struct Machine {
 
 /// The instruction set of that name, or the best one of this processor for "auto"; nullptr if it is unknown or not
 /// usable here.
-Machine const* find_machine(char const* name);
+Backend const* find_backend(char const* name);
 /// Names of the instruction sets in this program that this processor can run, best first; ends with nullptr.
-char const* const* machine_names();
-/// As find_machine; throws InputError if there is none.
-Machine const& choose_machine(char const* name);
+char const* const* backend_names();
+/// As find_backend; throws InputError if there is none.
+Backend const& choose_backend(char const* name);
 
 }  // namespace piola::taylor_sph

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/domain/first_failure.hpp"
+#include "piola/domain/slot_collectives.hpp"
 #include "piola/formulations/taylor_sph/adjoint_passes.hpp"
 #include "piola/formulations/taylor_sph/boundary_passes.hpp"
 #include "piola/formulations/taylor_sph/cell_passes.hpp"
 #include "piola/formulations/taylor_sph/filter_passes.hpp"
 #include "piola/formulations/taylor_sph/momentum_passes.hpp"
-#include "piola/parallel/first_failure.hpp"
-#include "piola/parallel/own_slots.hpp"
 #include <vector>
 
-namespace piola::taylor_sph::inline PIOLA_MACHINE {
+namespace piola::taylor_sph::inline PIOLA_BACKEND {
 
 /// The parts of a step of one body, in their order; solver.cpp calls them. On several ranks each rank computes its
 /// range of slots; then the results are replicated, so that code outside loops over particles is the same everywhere.
@@ -20,17 +20,17 @@ class Step {
 
   /// Eqs. (21): v and sigma of the virtual particles at t^(n+1/2) from the real ones at t^n.
   void half(double dt) {
-    exec::for_each(own_part(b_.virtuals), HalfStep<D, Kernel, Law>{law_, b_.k, b_.to_virtual, b_.cells, b_.real,
-                                                                   b_.virtual_, acceleration(), dt});
-    complete_slots(b_.virtual_, Record<D>::stride, b_.virtuals);
+    exec::for_each(even_local_range(b_.virtuals), HalfStep<D, Kernel, Law>{law_, b_.k, b_.to_virtual, b_.cells, b_.real,
+                                                                           b_.virtual_, acceleration(), dt});
+    allgather_slots(b_.virtual_, Record<D>::stride, b_.virtuals);
   }
   /// Eqs. (22), (23): v, sigma, x of the real particles at t^(n+1) from the virtual ones at t^(n+1/2).
   void full(double dt) {
     exec::for_each(
-        own_part(b_.interior),
+        even_local_range(b_.interior),
         FullStep<D, Kernel, Law>{law_, b_.k, b_.to_real, b_.virtual_, b_.real, write(b_.out_of_plane), write(b_.drift),
                                  write(b_.displacement), acceleration(), b_.interior_count, b_.failure, dt});
-    exec::for_each(own_part(b_.boundary),
+    exec::for_each(even_local_range(b_.boundary),
                    BoundaryStep<D, Kernel, Law>{law_, b_.k, b_.to_real, b_.virtual_, b_.real, write(b_.out_of_plane),
                                                 write(b_.drift), write(b_.displacement), acceleration(), b_.items,
                                                 b_.boundary.first, b_.boundary_count, b_.failure, dt});
@@ -44,8 +44,8 @@ class Step {
   void filter() {
     if constexpr (D > 1) {
       Range const boxes{0, b_.hourglass.boxes};
-      exec::for_each(own_part(boxes), MeasurePatterns<D>{b_.hourglass, b_.real});
-      complete_slots(b_.hourglass.pattern, Patterns<D>::count * Record<D>::fields, boxes);
+      exec::for_each(even_local_range(boxes), MeasurePatterns<D>{b_.hourglass, b_.real});
+      allgather_slots(b_.hourglass.pattern, Patterns<D>::count * Record<D>::fields, boxes);
       Sums<2> losses;
       damp(b_.interior, b_.interior_count, losses.of[0]);
       damp(b_.boundary, b_.boundary_count, losses.of[1]);
@@ -55,10 +55,10 @@ class Step {
   }
   /// Mass, momentum and inertia of the body.
   void motion(double* sums) {
-    Sums<2, exec::ExactSums<MotionSums::size>> parts;
+    Sums<2, exec::ReproducibleSums<MotionSums::size>> parts;
     sum_motion(b_.interior, b_.interior_count, parts.of[0]);
     sum_motion(b_.boundary, b_.boundary_count, parts.of[1]);
-    ranks::add(parts);
+    comm::allreduce_sum(parts);
     for (auto const& part : parts.of)
       for (int k = 0; k < MotionSums::size; ++k) sums[k] += part.value(k);
   }
@@ -68,9 +68,9 @@ class Step {
   }
   /// A whole step by the adjoint exchange.
   void adjoint(double dt) {
-    Range const cells = own_part(b_.virtuals);
+    Range const cells = even_local_range(b_.virtuals);
     exec::for_each(cells, CornerForces<D, Law>{law_, b_.k, b_.cells, b_.memory, b_.real, b_.virtual_, dt});
-    complete_slots(b_.memory.force, std::ptrdiff_t{D} * b_.cells.corners, b_.virtuals);
+    allgather_slots(b_.memory.force, std::ptrdiff_t{D} * b_.cells.corners, b_.virtuals);
     Sums<2> work;
     advance_velocities(b_.interior, b_.interior_count, nullptr, dt, work.of[0]);
     advance_velocities(b_.boundary, b_.boundary_count, b_.items, dt, work.of[1]);
@@ -102,7 +102,7 @@ class Step {
   }
   /// Moves virtual particles to the centres of their cells.
   CellMeasures place() {
-    Range const cells = own_part(b_.virtuals);
+    Range const cells = even_local_range(b_.virtuals);
     exec::for_each_block(cells, PlaceVirtuals<D>{b_.cells, b_.real, b_.virtual_, b_.partial});
     CellMeasures m{0, 1e300, 1e300, 0};
     for (Index k = 0; k < exec::block_count(cells); ++k) {
@@ -128,7 +128,7 @@ class Step {
   static View view(FieldRef const& f) { return {f.data, f.component_stride, f.particle_stride, f.tile_extra}; }
   static WriteView write(FieldRef const& f) { return {f.data, f.component_stride, f.particle_stride, f.tile_extra}; }
   using Arrays = std::vector<SlotArray>;
-  using Sum = exec::ExactSums<1>;
+  using Sum = exec::ReproducibleSums<1>;
   /// Sums of the loops over several ranges.
   template <int N, class S = Sum>
   struct Sums {
@@ -151,7 +151,7 @@ class Step {
   template <class T, class... More>
   static void complete_and_add(T& sums, Arrays arrays, More const&... more) {
     (arrays.insert(arrays.end(), more.begin(), more.end()), ...);
-    complete_slots_and_add(std::span<SlotArray const>(arrays), sums);
+    allgather_slots_and_sum(std::span<SlotArray const>(arrays), sums);
   }
   /// Arrays of real particles and of cells that steps change.
   Arrays records() const {
@@ -178,18 +178,18 @@ class Step {
   }
   /// Sum over the blocks of these slots in `partial`.
   template <int N>
-  void add_blocks(Range own, exec::ExactSums<N>& sums) const {
+  void add_blocks(Range own, exec::ReproducibleSums<N>& sums) const {
     for (Index k = 0; k < exec::block_count(own); ++k) sums.add(b_.partial + static_cast<std::ptrdiff_t>(k) * N);
   }
   void advance_velocities(Range range, Index count, BoundaryItem const* items, double dt, Sum& work) {
-    Range const own = own_part(range);
+    Range const own = even_local_range(range);
     exec::for_each_block(
         own, AdvanceVelocities<D>{b_.k, b_.around, b_.memory, b_.real, view(b_.mass), acceleration(), write(b_.drift),
                                   items, range.first, range.first + count, b_.partial, dt});
     add_blocks(own, work);
   }
   void advance_stresses(Range range, Index count, double dt, Sum& square) {
-    Range const own = own_part(range);
+    Range const own = even_local_range(range);
     exec::for_each_block(own, AdvanceStresses<D, Law>{law_, b_.k, b_.around, b_.memory, b_.cells.corners, b_.virtual_,
                                                       b_.real, write(b_.out_of_plane), write(b_.displacement),
                                                       view(b_.drift), range.first + count, b_.failure, b_.partial, dt});
@@ -199,13 +199,13 @@ class Step {
     exec::for_each_block(range, GatherVolumes<D>{b_.k, b_.around, b_.cells.corners, b_.virtual_, b_.real, view(b_.mass),
                                                  range.first + count});
   }
-  void sum_motion(Range range, Index count, exec::ExactSums<MotionSums::size>& sums) {
-    Range const own = own_part(range);
+  void sum_motion(Range range, Index count, exec::ReproducibleSums<MotionSums::size>& sums) {
+    Range const own = even_local_range(range);
     exec::for_each_block(own, SumMotion<D>{b_.real, view(b_.mass), range.first + count, b_.partial});
     add_blocks(own, sums);
   }
   void damp(Range range, Index count, Sum& loss) {
-    Range const own = own_part(range);
+    Range const own = even_local_range(range);
     exec::for_each_block(own, DampPatterns<D, Law>{law_, b_.k, b_.hourglass, b_.real, view(b_.mass),
                                                    view(b_.out_of_plane), range.first, count, b_.partial});
     add_blocks(own, loss);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/view.hpp"
+#include "piola/exec/field_view.hpp"
 #include "piola/formulations/taylor_sph/state.hpp"
 #include "piola/kernels/cubic_spline.hpp"
 #include "piola/kernels/wendland_c2.hpp"
-#include "piola/neighbours/records.hpp"
+#include "piola/neighbours/record_gather.hpp"
 
 /// Kernel sums over the sources around a target, and the resulting values and gradients. Numbers of equations are those
 /// of Serroukh and Mabssout (2022).
-namespace piola::taylor_sph::inline PIOLA_MACHINE {
+namespace piola::taylor_sph::inline PIOLA_BACKEND {
 
 /// Sums over sources J with weights w = W_IJ Omega_J and g_J = Omega_J grad W_IJ = s (x_J - x_I), x from the target.
 /// Constant factors of the kernel are omitted, because they cancel.
@@ -40,7 +40,7 @@ PIOLA_FN V kernel_slope(V const& q) {
 
 /// The record of the lanes that start at slot i.
 template <int D>
-PIOLA_FN void load_own(double const* records, Index i, Lanes (&r)[Record<D>::values]) {
+PIOLA_FN void load_local(double const* records, Index i, Lanes (&r)[Record<D>::values]) {
   Index at[lane_count];
   for (int l = 0; l < lane_count; ++l) at[l] = i + l;
   load_records(records, Record<D>::stride, at, r);
@@ -75,7 +75,7 @@ PIOLA_FN void add_source(Lanes const (&f)[Record<D>::values], Vec<D, Lanes> cons
 
 /// Sums of the lanes of targets that start at i.
 template <int D, class K>
-PIOLA_FN KernelSums<D, Lanes> sum_sources(SetPairTable const& pairs, double const* sources, Index i,
+PIOLA_FN KernelSums<D, Lanes> sum_sources(CrossSetPairTable const& pairs, double const* sources, Index i,
                                           Vec<D, Lanes> const& target) {
   KernelSums<D, Lanes> sums{};
   Lanes const inverse_h = load<Lanes>(pairs.inverse_h + i);

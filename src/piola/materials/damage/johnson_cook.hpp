@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/materials/plastic/heat.hpp"
+#include "piola/materials/plastic/adiabatic_heating.hpp"
 #include <string_view>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// The word `damage` of a solid.
 inline constexpr std::array<std::string_view, 2> damage_words{"none", "johnson_cook"};

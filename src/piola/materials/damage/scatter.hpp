@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/base/machine.hpp"
+#include "piola/base/backend.hpp"
 #include "piola/base/parameter.hpp"
 #include "piola/math/hash.hpp"
 #include <array>
 #include <cmath>
 #include <cstdint>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Scatter of the failure strength between particles of one material (W. Weibull, J. Appl. Mech. 18, 1951, pp.
 /// 293-297): fracture strains and spall pressures are multiplied by x, with the probability 1 - exp(-ln 2 (V/V0) x^m)

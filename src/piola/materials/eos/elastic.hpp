@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/base/machine.hpp"
+#include "piola/base/backend.hpp"
 #include "piola/materials/eos/values.hpp"
 #include "piola/math/lanes.hpp"
 #include <type_traits>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Pressure that is linear in the density and independent of energy: p = K (rho/rho0 - 1).
 class ElasticEos {

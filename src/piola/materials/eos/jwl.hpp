@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/base/machine.hpp"
+#include "piola/base/backend.hpp"
 #include "piola/materials/eos/values.hpp"
 #include "piola/math/lanes.hpp"
 #include <cmath>
 #include <type_traits>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Gases of a detonated explosive, by Jones, Wilkins and Lee (E. L. Lee, H. C. Hornig, J. W. Kury, UCRL-50422, 1968).
 /// V = rho0/rho, E = rho0 e energy per volume of the explosive, which starts at the energy of detonation:

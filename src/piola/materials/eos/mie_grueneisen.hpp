@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/base/machine.hpp"
+#include "piola/base/backend.hpp"
 #include "piola/materials/eos/values.hpp"
 #include "piola/math/lanes.hpp"
 #include <type_traits>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Mie-Grueneisen with the cubic relation of shock and particle speed (LS-DYNA keyword manual, EOS_GRUNEISEN).
 /// m = rho/rho0 - 1, E = rho0 e energy per reference volume:

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/base/machine.hpp"
+#include "piola/base/backend.hpp"
 #include "piola/materials/eos/values.hpp"
 #include "piola/math/lanes.hpp"
 #include <type_traits>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Polynomial in m = rho/rho0 - 1, linear in the energy per reference volume E = rho0 e (LS-DYNA keyword manual,
 /// EOS_LINEAR_POLYNOMIAL, with C0 = 0 so that the solid is free of stress at rest):

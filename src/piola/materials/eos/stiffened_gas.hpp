@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/base/machine.hpp"
+#include "piola/base/backend.hpp"
 #include "piola/materials/eos/values.hpp"
 #include "piola/math/lanes.hpp"
 #include <type_traits>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Stiffened gas: p = c0^2 (rho - rho0) + (gamma0 - 1) rho e (Young, Teixeira-Dias, Azevedo, Mill, Int. J. Mech. Sci.
 /// 192, 2021, eq. 17).

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/base/machine.hpp"
+#include "piola/base/backend.hpp"
 #include "piola/base/parameter.hpp"
 #include <array>
 #include <cmath>
 #include <string_view>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// The word `eos` of a solid, in the order of the equations of state in solids.hpp.
 inline constexpr std::array<std::string_view, 5> eos_words{"elastic", "stiffened_gas", "mie_grueneisen", "polynomial",

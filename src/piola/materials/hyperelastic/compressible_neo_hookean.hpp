@@ -5,7 +5,7 @@
 #include <array>
 #include <string_view>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Compressible neo-Hookean solid, with the logarithm of the volume ratio.
 ///   W = mu/2 (F:F - 3) - mu ln J + lambda/2 (ln J)^2

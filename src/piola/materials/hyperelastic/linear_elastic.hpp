@@ -4,7 +4,7 @@
 #include "piola/math/tensor.hpp"
 #include <string_view>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Linear elasticity in the small strain e = (F + F^T)/2 - I.
 ///   W = mu (e:e - (tr e)^2/3) + kappa/2 (tr e)^2

@@ -5,7 +5,7 @@
 #include <array>
 #include <string_view>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Nearly incompressible Mooney-Rivlin solid, polyconvex: shear stiffness from F and from its cofactor H.
 ///   W = zeta (J^(-2/3) F:F - 3) + xi (J^(-2) (H:H)^(3/2) - 3 sqrt(3)) + kappa/2 (J - 1)^2,  2 zeta + 3 sqrt(3) xi = mu

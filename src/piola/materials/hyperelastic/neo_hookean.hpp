@@ -4,7 +4,7 @@
 #include "piola/math/tensor.hpp"
 #include <string_view>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Nearly incompressible neo-Hookean solid: isochoric shear part and quadratic volumetric part.
 ///   W = mu/2 (J^(-2/3) F:F - 3) + kappa/2 (J - 1)^2

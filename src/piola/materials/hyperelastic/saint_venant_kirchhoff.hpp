@@ -4,7 +4,7 @@
 #include "piola/math/tensor.hpp"
 #include <string_view>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Saint Venant-Kirchhoff solid: linear elasticity in the Green strain E = (F^T F - I)/2.
 ///   W = lambda/2 (tr E)^2 + mu E:E

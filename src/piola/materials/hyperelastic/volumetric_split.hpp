@@ -3,7 +3,7 @@
 #include "piola/materials/elastic_constants.hpp"
 #include "piola/math/tensor.hpp"
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Laws whose energy is an isochoric part plus kappa/2 (J - 1)^2 (Lee et al. 2016, Section 2.1). A law provides
 /// `small_strain`, isochoric_energy(F, H, J) with F, H and J as independent variables, stress_with_pressure(F, H, J, p)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/materials/plastic/heat.hpp"
+#include "piola/materials/plastic/adiabatic_heating.hpp"
 #include "piola/math/lanes.hpp"
 #include <cmath>
 #include <string_view>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Flow stress of Johnson and Cook (Proc. 7th Int. Symp. Ballistics, The Hague 1983, pp. 541-547):
 ///   sy = (A + B ep^n) (1 + C ln max(rate/rate0, 1)) (1 - T*^m),  T* = (T - Tr)/(Tm - Tr) between 0 and 1.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/materials/plastic/heat.hpp"
+#include "piola/materials/plastic/adiabatic_heating.hpp"
 #include "piola/math/root.hpp"
 #include <cmath>
 #include <string_view>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Strength of glass and ceramics by pressure and damage: the second model of Johnson and Holmquist (AIP Conf. Proc.
 /// 309, 1994, pp. 981-984). With P* = P/P_HEL, T* = T/P_HEL and stresses over sigma_HEL = 3/2 (HEL - P_HEL):

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/materials/plastic/heat.hpp"
+#include "piola/materials/plastic/adiabatic_heating.hpp"
 #include "piola/math/lanes.hpp"
 #include <string_view>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Perfect plasticity of von Mises: the yield stress is a constant.
 class PerfectPlasticity {

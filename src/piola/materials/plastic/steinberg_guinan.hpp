@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/materials/plastic/heat.hpp"
+#include "piola/materials/plastic/adiabatic_heating.hpp"
 #include "piola/math/root.hpp"
 #include <cmath>
 #include <string_view>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Flow stress of Steinberg, Cochran and Guinan (J. Appl. Phys. 51, 1980, pp. 1498-1504), for rates above 1e5 /s, where
 /// it no longer depends on the rate:

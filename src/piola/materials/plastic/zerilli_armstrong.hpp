@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/materials/plastic/heat.hpp"
+#include "piola/materials/plastic/adiabatic_heating.hpp"
 #include "piola/math/root.hpp"
 #include <cmath>
 #include <string_view>
 
-namespace piola::inline PIOLA_MACHINE {
+namespace piola::inline PIOLA_BACKEND {
 
 /// Flow stress of Zerilli and Armstrong (J. Appl. Phys. 61, 1987, pp. 1816-1825) for both lattices:
 ///   sy = C0 + (C1 + C2 sqrt(ep)) exp(-C3 T + C4 T ln rate) + C5 ep^n,

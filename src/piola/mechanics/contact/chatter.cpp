@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/chatter.hpp"
-#include "piola/exec/set_up_loop.hpp"
+#include "piola/exec/host_loops.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -14,38 +14,38 @@ constexpr double flat_inertia = 1e-9;
 
 /// f(i) for all particles of a cluster.
 template <class F>
-void for_members(Carriers const& carriers, Index carrier, F const& f) {
-  f(at(carriers.self(carrier)));
-  for (std::size_t j = carriers.first(carrier); j < carriers.last(carrier); ++j) f(at(carriers.neighbour(j).at));
+void for_members(HostParticles const& hosts, Index host, F const& f) {
+  f(at(hosts.self(host)));
+  for (std::size_t j = hosts.first(host); j < hosts.last(host); ++j) f(at(hosts.neighbour(j).at));
 }
 
 }  // namespace
 
-ChatterDamping::ChatterDamping(Carriers const& carriers, std::vector<Surface> const& surfaces,
+ChatterDamping::ChatterDamping(HostParticles const& hosts, std::vector<Surface> const& surfaces,
                                std::vector<double> const& shares, int dimension)
-    : impulses_(carriers.ids().size()), is_damped_(carriers.ids().size()) {
-  std::vector<double> around(carriers.ids().size());
-  for (Index k = 0; k < carriers.count(); ++k) for_members(carriers, k, [&](std::size_t i) { around[i] += 1; });
-  std::vector<char> known(at(carriers.count()));
+    : impulses_(hosts.ids().size()), is_damped_(hosts.ids().size()) {
+  std::vector<double> around(hosts.ids().size());
+  for (Index k = 0; k < hosts.count(); ++k) for_members(hosts, k, [&](std::size_t i) { around[i] += 1; });
+  std::vector<char> known(at(hosts.count()));
   for (std::size_t b = 0; b < surfaces.size(); ++b)
     for (std::size_t p = 0; p < surfaces[b].points.size(); ++p) {
-      Index const carrier = carriers.of(b, p);
-      if (!(shares[b] > 0) || known[at(carrier)] != 0) continue;
-      known[at(carrier)] = 1;
+      Index const host = hosts.of(b, p);
+      if (!(shares[b] > 0) || known[at(host)] != 0) continue;
+      known[at(host)] = 1;
       double most = 1;
-      for_members(carriers, carrier, [&](std::size_t i) { most = std::max(most, around[i]); });
+      for_members(hosts, host, [&](std::size_t i) { most = std::max(most, around[i]); });
       clusters_.push_back(
-          {carrier, surfaces[b].modulus * std::pow(surfaces[b].spacing, dimension - 2), shares[b], 1 / most});
+          {host, surfaces[b].modulus * std::pow(surfaces[b].spacing, dimension - 2), shares[b], 1 / most});
     }
 }
 
 /// The rigid motion with the momenta of the cluster, and which part of the rest is taken away.
-ChatterDamping::Motion ChatterDamping::motion_of(Cluster const& cluster, Carriers const& carriers,
+ChatterDamping::Motion ChatterDamping::motion_of(Cluster const& cluster, HostParticles const& hosts,
                                                  State const& now) const {
   auto const mass = [&](std::size_t i) { return 1 / now.inverse_masses[i]; };
   Motion motion;
   double sum = 0;
-  for_members(carriers, cluster.carrier, [&](std::size_t i) {
+  for_members(hosts, cluster.host, [&](std::size_t i) {
     sum += mass(i);
     motion.centre = motion.centre + mass(i) * now.x[i];
     motion.velocity = motion.velocity + mass(i) * now.v[i];
@@ -54,7 +54,7 @@ ChatterDamping::Motion ChatterDamping::motion_of(Cluster const& cluster, Carrier
   motion.velocity = (1 / sum) * motion.velocity;
   Mat<3> spread;
   Vec<3> momentum;
-  for_members(carriers, cluster.carrier, [&](std::size_t i) {
+  for_members(hosts, cluster.host, [&](std::size_t i) {
     Vec<3> const r = now.x[i] - motion.centre;
     spread = spread + mass(i) * outer(r, r);
     momentum = momentum + mass(i) * cross(r, now.v[i] - motion.velocity);
@@ -64,19 +64,19 @@ ChatterDamping::Motion ChatterDamping::motion_of(Cluster const& cluster, Carrier
   if (!(determinant(inertia) > flat_inertia * size * size * size)) return {};
   motion.spin = inverse(inertia) * momentum;
   double energy = 0;  // twice that of the rest
-  for_members(carriers, cluster.carrier, [&](std::size_t i) {
+  for_members(hosts, cluster.host, [&](std::size_t i) {
     Vec<3> const rest = now.v[i] - motion.velocity - cross(motion.spin, now.x[i] - motion.centre);
     energy += mass(i) * dot(rest, rest);
   });
-  double const own = now.inverse_masses[at(carriers.self(cluster.carrier))];
+  double const own = now.inverse_masses[at(hosts.self(cluster.host))];
   double const factor = cluster.weight * -std::expm1(-rate * std::sqrt(cluster.stiffness * own) * now.dt);
   // A factor takes at most itself times this energy.
-  double const allowed = cluster.share * now.heat[at(cluster.carrier)];
+  double const allowed = cluster.share * now.heat[at(cluster.host)];
   motion.factor = factor * energy > allowed ? allowed / energy : factor;
   return motion;
 }
 
-void ChatterDamping::look(Carriers const& carriers, State const& now) {
+void ChatterDamping::look(HostParticles const& hosts, State const& now) {
   for (Index const i : damped_) {
     impulses_[at(i)] = {};
     is_damped_[at(i)] = 0;
@@ -84,15 +84,14 @@ void ChatterDamping::look(Carriers const& carriers, State const& now) {
   damped_.clear();
   rubbing_.clear();
   for (std::size_t k = 0; k < clusters_.size(); ++k)
-    if (now.heat[at(clusters_[k].carrier)] > 0) rubbing_.push_back(static_cast<Index>(k));
+    if (now.heat[at(clusters_[k].host)] > 0) rubbing_.push_back(static_cast<Index>(k));
   motions_.resize(rubbing_.size());
-  exec_host::for_each_in_set_up(static_cast<Index>(rubbing_.size()), [&](Index k) {
-    motions_[at(k)] = motion_of(clusters_[at(rubbing_[at(k)])], carriers, now);
-  });
+  exec_host::parallel_for(static_cast<Index>(rubbing_.size()),
+                          [&](Index k) { motions_[at(k)] = motion_of(clusters_[at(rubbing_[at(k)])], hosts, now); });
   for (std::size_t k = 0; k < rubbing_.size(); ++k) {
     Motion const& motion = motions_[k];
     if (!(motion.factor > 0)) continue;
-    for_members(carriers, clusters_[at(rubbing_[k])].carrier, [&](std::size_t i) {
+    for_members(hosts, clusters_[at(rubbing_[k])].host, [&](std::size_t i) {
       if (is_damped_[i] == 0) damped_.push_back(static_cast<Index>(i));
       is_damped_[i] = 1;
       Vec<3> const rest = now.v[i] - motion.velocity - cross(motion.spin, now.x[i] - motion.centre);

@@ -13,7 +13,7 @@ class ChatterDamping {
  public:
   ChatterDamping() = default;
   /// shares: by body, largest fraction of the friction heat that is dissipated; 0: no damping.
-  ChatterDamping(Carriers const& carriers, std::vector<Surface> const& surfaces, std::vector<double> const& shares,
+  ChatterDamping(HostParticles const& hosts, std::vector<Surface> const& surfaces, std::vector<double> const& shares,
                  int dimension);
   bool any() const { return !clusters_.empty(); }
 
@@ -24,14 +24,14 @@ class ChatterDamping {
     double dt;                                  ///< [s]
   };
   /// Computes the impulses.
-  void look(Carriers const& carriers, State const& now);
+  void look(HostParticles const& hosts, State const& now);
   /// Indices of ids() with an impulse, ascending, and impulses by index [N s].
   std::vector<Index> const& damped() const { return damped_; }
   std::vector<Vec<3>> const& impulses() const { return impulses_; }
 
  private:
   struct Cluster {
-    Index carrier;
+    Index host;
     double stiffness;  ///< M dp^(D-2); divided by the mass of a particle: the square of c/dp [N/m]
     double share;      ///< fraction of the heat
     double weight;     ///< the weights of all clusters around a particle sum to at most 1
@@ -40,7 +40,7 @@ class ChatterDamping {
     Vec<3> centre, velocity, spin;
     double factor = 0;
   };
-  Motion motion_of(Cluster const& cluster, Carriers const& carriers, State const& now) const;
+  Motion motion_of(Cluster const& cluster, HostParticles const& hosts, State const& now) const;
 
   std::vector<Cluster> clusters_;
   std::vector<Index> rubbing_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/colour_contact.hpp"
-#include "piola/exec/set_up_loop.hpp"
+#include "piola/exec/host_loops.hpp"
 #include "piola/kernels/wendland_c2.hpp"
-#include "piola/mechanics/contact/planes.hpp"
+#include "piola/mechanics/contact/blended_planes.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <array>
@@ -156,7 +156,7 @@ void ColourContact::add(Index k, Vec<3> const& f) {
 
 /// E = A psi(g), g = (C_touching - C) / |C'|.
 void ColourContact::push(Pass const& pass, std::size_t target, Seen const& seen, std::vector<Vec<3>> const& x,
-                         exec::ExactSum& energy) {
+                         exec::ReproducibleSum& energy) {
   if (!(seen.colour > soon * pass.touching)) return;
   Body const &own = bodies_[pass.body], &other = bodies_[pass.other];
   Index const self = own.at[number(pass.target[target])];
@@ -203,11 +203,11 @@ void ColourContact::evaluate(std::vector<Vec<3>> const& x, std::vector<double> c
   totals_ = {};
   if (!lists_hold(x, masses)) make_lists(x, masses);
   std::vector<Seen> seen;
-  exec::ExactSum energy;
+  exec::ReproducibleSum energy;
   for (Pass const& pass : passes_) {
     seen.resize(pass.target.size());
-    exec_host::for_each_in_set_up(static_cast<Index>(seen.size()),
-                                  [&](Index k) { seen[number(k)] = look(pass, number(k), x); });
+    exec_host::parallel_for(static_cast<Index>(seen.size()),
+                            [&](Index k) { seen[number(k)] = look(pass, number(k), x); });
     for (std::size_t k = 0; k < seen.size(); ++k) push(pass, k, seen[k], x, energy);
   }
   totals_.energy = energy.value();
@@ -217,7 +217,7 @@ void ColourContact::evaluate(std::vector<Vec<3>> const& x, std::vector<double> c
       totals_.frequency2 = std::max(totals_.frequency2, stiffness_[k] / masses[k]);
 }
 
-double ColourContact::closing_step(std::vector<Vec<3>> const& x, std::vector<Vec<3>> const& v) const {
+double ColourContact::contact_time_step(std::vector<Vec<3>> const& x, std::vector<Vec<3>> const& v) const {
   double step = std::numeric_limits<double>::infinity();
   for (Pass const& pass : passes_) {
     double const dp = 2 * pass.length;

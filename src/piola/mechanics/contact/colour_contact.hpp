@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/math/lanes.hpp"
 #include "piola/math/tensor.hpp"
-#include "piola/mechanics/contact/between.hpp"
+#include "piola/mechanics/contact/force_moment.hpp"
 #include <cstddef>
 #include <vector>
 
@@ -55,10 +55,10 @@ class ColourContact {
   };
   Totals const& totals() const { return totals_; }
   /// The step in which the fastest adjacent particles of two bodies approach by a tenth of a spacing [s]. v [m/s].
-  double closing_step(std::vector<Vec<3>> const& x, std::vector<Vec<3>> const& v) const;
+  double contact_time_step(std::vector<Vec<3>> const& x, std::vector<Vec<3>> const& v) const;
   std::vector<Pair> const& pairs() const { return pairs_; }
   /// Force of body b on body a; moment about the origin.
-  Between on_first(std::size_t pair) const { return on_first_[pair].value(); }
+  ForceMoment resultant_on_first(std::size_t pair) const { return on_first_[pair].value(); }
   std::size_t bytes() const;
 
  private:
@@ -83,7 +83,7 @@ class ColourContact {
   void list(Pass& pass, std::vector<Vec<3>> const& x, std::vector<double> const& masses) const;
   Seen look(Pass const& pass, std::size_t target, std::vector<Vec<3>> const& x) const;
   void push(Pass const& pass, std::size_t target, Seen const& seen, std::vector<Vec<3>> const& x,
-            exec::ExactSum& energy);
+            exec::ReproducibleSum& energy);
   void add(Index k, Vec<3> const& f);
 
   std::vector<Body> bodies_;
@@ -96,7 +96,7 @@ class ColourContact {
   std::vector<double> stiffness_;  ///< by particle: bound of its row of second derivatives [N/m]
   std::vector<char> is_pushed_;
   std::vector<Index> pushed_;
-  std::vector<BetweenSum> on_first_;
+  std::vector<ForceMomentSum> on_first_;
   Totals totals_;
 };
 

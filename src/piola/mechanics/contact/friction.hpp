@@ -37,7 +37,7 @@ struct Spring {
 /// Return mapping: xi <- (1 - n (x) n) (last + jump), scaled so that k |xi| <= bound. last: the previous stretch,
 /// rotated with the body [m]; jump: displacement of the point over the surface since then [m]; n: unit normal; k [N/m];
 /// bound: mu f_n [N].
-inline Spring dragged(Vec<3> const& last, Vec<3> const& jump, Vec<3> const& n, double k, double bound) {
+inline Spring slip_return_map(Vec<3> const& last, Vec<3> const& jump, Vec<3> const& n, double k, double bound) {
   Vec<3> const all = last + jump;
   Vec<3> xi = all - dot(n, all) * n;
   double const pull = k * std::sqrt(dot(xi, xi));
@@ -51,7 +51,7 @@ inline double friction_work(Vec<3> const& before, Vec<3> const& after, Vec<3> co
 }
 
 /// Friction at one point over one step.
-struct Rubbing {
+struct FrictionState {
   Spring spring;
   double work = 0;    ///< taken from the bodies [J]
   double energy = 0;  ///< stored in the spring [J]
@@ -59,13 +59,13 @@ struct Rubbing {
 
 /// last: the previous spring, rotated with the surface; null: a new contact, which starts without stretch. jump [m] and
 /// dt [s] since then; n: unit normal; k [N/m]; normal force [N] and area [m2] for the law.
-inline Rubbing rubbing(Spring const* last, Vec<3> const& jump, Vec<3> const& n, double k, FrictionLaw const& law,
-                       double normal_force, double area, double dt) {
+inline FrictionState update_friction(Spring const* last, Vec<3> const& jump, Vec<3> const& n, double k,
+                                     FrictionLaw const& law, double normal_force, double area, double dt) {
   Vec<3> const along = jump - dot(n, jump) * n;
   double const way = last != nullptr ? std::sqrt(dot(along, along)) : 0;
   double const bound = friction_bound(law, normal_force, area, dt > 0 ? way / dt : 0);
   Spring const spring =
-      dragged(last != nullptr ? last->stretch : Vec<3>{}, last != nullptr ? jump : Vec<3>{}, n, k, bound);
+      slip_return_map(last != nullptr ? last->stretch : Vec<3>{}, last != nullptr ? jump : Vec<3>{}, n, k, bound);
   return {spring, last != nullptr ? friction_work(last->force, spring.force, jump) : 0,
           0.5 * k * dot(spring.stretch, spring.stretch)};
 }

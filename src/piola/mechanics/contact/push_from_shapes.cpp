@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Points of rigid shapes against the planes of bodies, where points of the bodies are too far apart to feel the shape.
-#include "piola/exec/set_up_loop.hpp"
-#include "piola/mechanics/contact/system.hpp"
+#include "piola/exec/host_loops.hpp"
+#include "piola/mechanics/contact/surface_contact.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <limits>
@@ -15,7 +15,8 @@ constexpr double on_mirror = 1e-9;         // of a spacing
 }  // namespace
 
 /// Points of a shape that may be near the points of a body.
-std::vector<ShapePoint> System::shape_points_near(ShapePass const& pass, std::vector<Index> const& of_body) const {
+std::vector<ShapePoint> SurfaceContactSystem::shape_points_near(ShapePass const& pass,
+                                                                std::vector<Index> const& of_body) const {
   RigidSurface const& rigid = rigids_[pass.rigid];
   double const reach = pass.rule.reach + skin_, size = reach_of(rigid);
   constexpr double far = std::numeric_limits<double>::infinity();
@@ -33,7 +34,7 @@ std::vector<ShapePoint> System::shape_points_near(ShapePass const& pass, std::ve
   return pass.points.within(range);
 }
 
-void System::list_shape_points(std::vector<std::vector<Index>> const& of_body) {
+void SurfaceContactSystem::list_shape_points(std::vector<std::vector<Index>> const& of_body) {
   shape_runs_.clear();
   for (std::size_t p = 0; p < shape_passes_.size(); ++p) {
     ShapePass const& pass = shape_passes_[p];
@@ -61,7 +62,7 @@ void System::list_shape_points(std::vector<std::vector<Index>> const& of_body) {
 }
 
 /// Behind a mirror plane of the body a point of a shape counts in its image; on the plane half of it is in front.
-double System::share_before_mirrors(ShapeRun const& run) const {
+double SurfaceContactSystem::share_before_mirrors(ShapeRun const& run) const {
   std::size_t const body = shape_passes_[run.pass].body;
   double share = 1;
   for (SurfaceMirror const& mirror : mirrors_[body]) {
@@ -73,14 +74,14 @@ double System::share_before_mirrors(ShapeRun const& run) const {
 }
 
 /// The springs that a point of a shape hangs on bodies and on the shape.
-void System::note_spring_by(ShapeRun const& run, double area) {
+void SurfaceContactSystem::note_spring_by(ShapeRun const& run, double area) {
   ShapePass const& pass = shape_passes_[run.pass];
   RigidSurface const& rigid = rigids_[pass.rigid];
   double const over = std::min(run.gap.gap, 0.0) / pass.rule.length,
                spring = pass.rule.stiffness * area * (1 + 3 * over * over);
   std::size_t nearest = run.first;
   for (std::size_t s = run.first; s < run.last; ++s) {
-    shape_springs_[at(points_[at(sources_[s])].carrier)] += weights_[s] / run.gap.weight * spring;
+    shape_springs_[at(points_[at(sources_[s])].host)] += weights_[s] / run.gap.weight * spring;
     if (weights_[s] > weights_[nearest]) nearest = s;
   }
   gap_[at(sources_[nearest])] = std::min(gap_[at(sources_[nearest])], run.gap.gap);
@@ -91,13 +92,13 @@ void System::note_spring_by(ShapeRun const& run, double area) {
 }
 
 /// Forces between one point of a shape and the planes in its range.
-void System::push_by(ShapeRun const& run) {
+void SurfaceContactSystem::push_by(ShapeRun const& run) {
   ShapePass const& pass = shape_passes_[run.pass];
   PairRule const& rule = pass.rule;
   RigidSurface const& rigid = rigids_[pass.rigid];
   double const dp = 2 * rule.length, area = run.point.area * share_before_mirrors(run);
   Fade const theta = fade(run.gap.tau2(), rule.fade_from, rule.fade_to);
-  double const seen = theta.value * presence(run.gap.weight).value, depth = -run.gap.gap;
+  double const seen = theta.value * coverage(run.gap.weight).value, depth = -run.gap.gap;
   if (!(seen > 0) || !(area > 0)) return;
   note_spring_by(run, area);
   if (!(depth > 0)) return;
@@ -111,27 +112,27 @@ void System::push_by(ShapeRun const& run) {
       contact_loads(run.plane, area, run.gap, psi, theta, static_cast<Index>(run.last - run.first), source_of,
                     rule.reach, [&](Index s, PointLoad const& load) { add_load(sources_[run.first + at(s)], load); });
   Vec<3> const arm = run.plane.y - rigid.centre;
-  sums_.on_rigid[pass.rigid].add(own.force, cross(arm, own.force) - cross(run.plane.n, own.by_normal));
+  sums_.resultant_on_rigid[pass.rigid].add(own.force, cross(arm, own.force) - cross(run.plane.n, own.by_normal));
   rub_by(run, -area * psi.slope * seen, area);
 }
 
-void System::rub_by(ShapeRun const& run, double normal_force, double area) {
+void SurfaceContactSystem::rub_by(ShapeRun const& run, double normal_force, double area) {
   ShapePass const& pass = shape_passes_[run.pass];
   RigidSurface const& rigid = rigids_[pass.rigid];
   FrictionLaw const& law = with_rigid(pass.body, pass.rigid).friction;
   if (!law.any()) return;
   Vec<3> jump = moved_from(last_pose_[pass.rigid], rigid, run.plane.y), n;
   slide_over(run.first, run.last, run.gap.weight, run.plane.y, jump, n);
-  Press const press{run.point.key, others() + run.pass, normal_force, pass.rule.stiffness * area, area};
-  Rubbed const rubbed = drag(press, law, rigid.turn, jump, n);
-  sums_.on_rigid[pass.rigid].add(rubbed.force, cross(run.plane.y - rigid.centre, rubbed.force));
+  NormalContact const press{run.point.key, others() + run.pass, normal_force, pass.rule.stiffness * area, area};
+  FrictionForce const rubbed = drag(press, law, rigid.turn, jump, n);
+  sums_.resultant_on_rigid[pass.rigid].add(rubbed.force, cross(run.plane.y - rigid.centre, rubbed.force));
   rub_back(run.first, rubbed);
 }
 
 /// Gaps of the points of shapes.
-void System::place_shape_points() {
+void SurfaceContactSystem::place_shape_points() {
   weights_.resize(sources_.size());
-  exec_host::for_each_in_set_up(static_cast<Index>(shape_runs_.size()), [&](Index k) {
+  exec_host::parallel_for(static_cast<Index>(shape_runs_.size()), [&](Index k) {
     ShapeRun& run = shape_runs_[at(k)];
     ShapePass const& pass = shape_passes_[run.pass];
     RigidSurface const& rigid = rigids_[pass.rigid];
@@ -143,23 +144,23 @@ void System::place_shape_points() {
   });
 }
 
-void System::push_from_shape_points() {
+void SurfaceContactSystem::push_from_shape_points() {
   if (shape_runs_.empty()) return;
   place_shape_points();
-  shape_springs_.assign(at(carriers_.count()), 0);
+  shape_springs_.assign(at(hosts_.count()), 0);
   for (ShapeRun const& run : shape_runs_)
     if (run.gap.seen() && run.gap.gap < near * 2 * shape_passes_[run.pass].rule.length) push_by(run);
   note_shape_springs();
 }
 
 /// Springs of many points of a shape hang on one particle: their sum bounds the frequency that they add.
-void System::note_shape_springs() {
+void SurfaceContactSystem::note_shape_springs() {
   double largest = 0;
   for (ShapeRun const& run : shape_runs_) {
     double here = 0;
     for (std::size_t s = run.first; s < run.last; ++s) {
       Index const source = sources_[s];
-      here = std::max(here, 2.5 * shape_springs_[at(points_[at(source)].carrier)] * inverse_mass_of(source));
+      here = std::max(here, 2.5 * shape_springs_[at(points_[at(source)].host)] * inverse_mass_of(source));
     }
     largest = std::max(largest, here);
   }
@@ -169,7 +170,7 @@ void System::note_shape_springs() {
     if (rigids_[r].inverse_mass > 0) frequencies_[r].of_points += largest;
 }
 
-double System::closing_step_of_shapes(std::vector<Vec<3>> const& v) const {
+double SurfaceContactSystem::closing_step_of_shapes(std::vector<Vec<3>> const& v) const {
   double step = std::numeric_limits<double>::infinity();
   for (ShapeRun const& run : shape_runs_) {
     ShapePass const& pass = shape_passes_[run.pass];
@@ -178,8 +179,7 @@ double System::closing_step_of_shapes(std::vector<Vec<3>> const& v) const {
     Vec<3> const own = rigids_[pass.rigid].velocity_at(run.plane.y);
     for (std::size_t s = run.first; s < run.last; ++s) {
       if (!(weights_[s] > 0)) continue;
-      double const speed =
-          dot(v[at(carriers_.self(points_[at(sources_[s])].carrier))] - own, planes_[at(sources_[s])].n);
+      double const speed = dot(v[at(hosts_.self(points_[at(sources_[s])].host))] - own, planes_[at(sources_[s])].n);
       if (speed > 0) step = std::min(step, closing_in_a_step * dp / speed);
     }
   }

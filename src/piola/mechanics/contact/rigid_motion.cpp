@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/rigid_motion.hpp"
-#include "piola/math/places.hpp"
-#include "piola/mechanics/contact/numbers.hpp"
+#include "piola/math/array_conversion.hpp"
+#include "piola/mechanics/contact/state_vector.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -71,7 +71,7 @@ void RigidMotion::move(std::vector<RigidSurface>& surfaces, double time, double 
 }
 
 /// Bound over springs between shapes and springs to points of bodies.
-void RigidMotion::bound_frequency(System const& bodies) {
+void RigidMotion::bound_frequency(SurfaceContactSystem const& bodies) {
   std::vector<double> of_shapes;
   for (std::size_t k = 0; k < shapes_.size(); ++k) of_shapes.push_back(bodies.frequencies(k).of_shape);
   frequency2_ = pairs_.frequency2(of_shapes);
@@ -80,23 +80,23 @@ void RigidMotion::bound_frequency(System const& bodies) {
   of_shapes_ = of_shapes.empty() ? 0 : *std::max_element(of_shapes.begin(), of_shapes.end());
 }
 
-void RigidMotion::start(System const& bodies) {
+void RigidMotion::start(SurfaceContactSystem const& bodies) {
   pairs_.start(bodies.rigids());
   bound_frequency(bodies);
 }
 
-void RigidMotion::evaluate(System const& bodies, double dt) {
+void RigidMotion::evaluate(SurfaceContactSystem const& bodies, double dt) {
   pairs_.evaluate(bodies.rigids(), dt);
   bound_frequency(bodies);
 }
 
-RigidPairs::Load RigidMotion::on(System const& bodies, std::size_t shape) const {
-  Between const by_bodies = bodies.on_rigid(shape);
+RigidPairs::Load RigidMotion::on(SurfaceContactSystem const& bodies, std::size_t shape) const {
+  ForceMoment const by_bodies = bodies.resultant_on_rigid(shape);
   RigidPairs::Load const& by_shapes = pairs_.on(shape);
   return {by_bodies.force + by_shapes.force, by_bodies.moment + by_shapes.moment};
 }
 
-void RigidMotion::kick(System& bodies, double time, double half) {
+void RigidMotion::kick(SurfaceContactSystem& bodies, double time, double half) {
   for (std::size_t k = 0; k < shapes_.size(); ++k) {
     if (!shapes_[k].body) continue;
     RigidBody& body = *shapes_[k].body;
@@ -111,7 +111,7 @@ void RigidMotion::kick(System& bodies, double time, double half) {
   place(bodies.rigids());
 }
 
-void RigidMotion::damp(System& bodies, double factor) {
+void RigidMotion::damp(SurfaceContactSystem& bodies, double factor) {
   for (Shape& shape : shapes_) {
     if (!shape.body) continue;
     double const before = shape.body->moving_energy() + shape.body->turning_energy();
@@ -122,8 +122,8 @@ void RigidMotion::damp(System& bodies, double factor) {
   place(bodies.rigids());
 }
 
-double RigidMotion::closing_step(std::vector<RigidSurface> const& surfaces) const {
-  double step = any_ ? pairs_.closing_step(surfaces) : std::numeric_limits<double>::infinity();
+double RigidMotion::contact_time_step(std::vector<RigidSurface> const& surfaces) const {
+  double step = any_ ? pairs_.contact_time_step(surfaces) : std::numeric_limits<double>::infinity();
   if (of_shapes_ > 0) step = std::min(step, resolved_of_shape / std::sqrt(of_shapes_));
   for (RigidSurface const& surface : surfaces) {
     double const rate = std::sqrt(square_of(surface.angular_velocity));
@@ -191,7 +191,7 @@ std::vector<double> RigidMotion::state() const {
 }
 
 void RigidMotion::restore(std::vector<RigidSurface>& surfaces, std::vector<double> const& state) {
-  Numbers from(state);
+  StateVector from(state);
   for (double* number : {&work_, &damping_loss_, &frequency2_, &of_shapes_}) *number = from.next();
   for (Shape& shape : shapes_) {
     double& angle = shape.body ? shape.body->angle : shape.angle;

@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/mechanics/contact/rigid_body.hpp"
 #include "piola/mechanics/contact/rigid_pairs.hpp"
-#include "piola/mechanics/contact/system.hpp"
+#include "piola/mechanics/contact/surface_contact.hpp"
 #include "piola/mechanics/rigid_state.hpp"
 #include <optional>
 #include <vector>
@@ -20,18 +20,19 @@ class RigidMotion {
   /// Moves the surfaces from time to time + dt [s].
   void move(std::vector<RigidSurface>& surfaces, double time, double dt);
   /// Computes the forces between shapes in their initial pose, after those of the bodies.
-  void start(System const& bodies);
-  void evaluate(System const& bodies, double dt);  ///< dt [s] after the last evaluation
+  void start(SurfaceContactSystem const& bodies);
+  void evaluate(SurfaceContactSystem const& bodies, double dt);  ///< dt [s] after the last evaluation
   /// Applies the impulses of `half` [s] by the present forces and by gravity at `time`, and updates the velocities of
   /// the surfaces.
-  void kick(System& bodies, double time, double half);
-  void damp(System& bodies, double factor);
+  void kick(SurfaceContactSystem& bodies, double time, double half);
+  void damp(SurfaceContactSystem& bodies, double factor);
 
   /// Load of other shapes and bodies on a shape; moment about its centre.
-  RigidPairs::Load on(System const& bodies, std::size_t shape) const;
+  RigidPairs::Load on(SurfaceContactSystem const& bodies, std::size_t shape) const;
   RigidPairs::Totals const& between_shapes() const { return pairs_.totals(); }
-  double frequency2() const { return frequency2_; }                      ///< bound for free shapes [1/s2]
-  double closing_step(std::vector<RigidSurface> const& surfaces) const;  ///< step limit by contact and by rotation [s]
+  double frequency2() const { return frequency2_; }  ///< bound for free shapes [1/s2]
+  double contact_time_step(
+      std::vector<RigidSurface> const& surfaces) const;  ///< step limit by contact and by rotation [s]
 
   double kinetic_energy() const;         ///< of free shapes [J]
   double work() const { return work_; }  ///< of gravity and of held directions of free shapes, since the start [J]
@@ -55,7 +56,7 @@ class RigidMotion {
     double angle = 0;               ///< driven, in 2D [rad]
     Vec<3> rate;                    ///< driven [rad/s]
   };
-  void bound_frequency(System const& bodies);
+  void bound_frequency(SurfaceContactSystem const& bodies);
   void drive(Shape& shape, RigidSurface& surface, double time, double dt) const;
 
   int dimension_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/rigid_pairs.hpp"
-#include "piola/mechanics/contact/numbers.hpp"
-#include "piola/mechanics/contact/system.hpp"
+#include "piola/mechanics/contact/state_vector.hpp"
+#include "piola/mechanics/contact/surface_contact.hpp"
 #include "piola/mechanics/rigid_mass.hpp"
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ int points_of(Kind kind, int dimension) {
   return dimension == 3 ? 4 : 2;  // corners of a face
 }
 
-bool is_solid(RigidShape const& shape) { return shape.kind == Kind::box || shape.kind == Kind::cylinder; }
+bool is_hypoelastic(RigidShape const& shape) { return shape.kind == Kind::box || shape.kind == Kind::cylinder; }
 
 }  // namespace
 
@@ -39,7 +39,7 @@ RigidPairs::RigidPairs(std::vector<RigidShape> const& shapes, int dimension, Set
     for (std::size_t b = 0; b < shapes.size(); ++b) {
       RigidShape const &one = shapes[a], &other = shapes[b];
       if (a == b || !(one.free || other.free)) continue;
-      if (is_solid(one) && is_solid(other)) {  // each in turn
+      if (is_hypoelastic(one) && is_hypoelastic(other)) {  // each in turn
         if (samples_[a].empty()) samples_[a] = samples_of(one, dimension);
         pairs_.push_back({a, b, 0.5 * setting.stiffness, 0.5, true});
         continue;
@@ -52,7 +52,8 @@ RigidPairs::RigidPairs(std::vector<RigidShape> const& shapes, int dimension, Set
     }
 }
 
-std::vector<RigidPairs::Touch> RigidPairs::touches(Pair const& pair, std::vector<RigidSurface> const& shapes) const {
+std::vector<RigidPairs::PairSetting> RigidPairs::touches(Pair const& pair,
+                                                         std::vector<RigidSurface> const& shapes) const {
   RigidSurface const &a = shapes[pair.a], &b = shapes[pair.b];
   if (pair.sampled) return sampled_touches(samples_[pair.a], a, b);
   if (a.kind == Kind::sphere) {
@@ -60,7 +61,7 @@ std::vector<RigidPairs::Touch> RigidPairs::touches(Pair const& pair, std::vector
     double const gap = d.value - a.radius;
     return {{a.centre - (a.radius + 0.5 * gap) * d.normal, d.normal, gap}};
   }
-  std::vector<Touch> all;
+  std::vector<PairSetting> all;
   auto const add = [&](Vec<3> const& y) { all.push_back({y, b.axis, distance_from(b, y).value}); };
   if (a.kind == Kind::cylinder) {
     double const along = dot(b.axis, a.axis);
@@ -83,15 +84,15 @@ std::vector<RigidPairs::Touch> RigidPairs::touches(Pair const& pair, std::vector
 }
 
 /// Empty for a distant body; else the points that are near enough for this step and the next.
-std::vector<RigidPairs::Touch> RigidPairs::sampled_touches(std::vector<SurfaceSample> const& samples,
-                                                           RigidSurface const& a, RigidSurface const& b) const {
+std::vector<RigidPairs::PairSetting> RigidPairs::sampled_touches(std::vector<SurfaceSample> const& samples,
+                                                                 RigidSurface const& a, RigidSurface const& b) const {
   Vec<3> const between = a.centre - b.centre;
   double const apart = std::sqrt(square_of(between)), gap = apart - reach_of(a) - reach_of(b);
   if (gap > setting_.spacing) {
     Vec<3> const n = (1 / apart) * between;
     return {{b.centre + reach_of(b) * n, n, gap, 0}};
   }
-  std::vector<Touch> all;
+  std::vector<PairSetting> all;
   for (SurfaceSample const& sample : samples) {
     Vec<3> const y = a.centre + a.turn * sample.arm;
     Distance const d = distance_from(b, y);
@@ -105,23 +106,23 @@ void RigidPairs::add(std::size_t shape, Vec<3> const& arm, Vec<3> const& force) 
 }
 
 /// Friction on shape a.
-Vec<3> RigidPairs::rub(std::size_t pair, std::size_t point, Touch const& touch, double normal_force,
+Vec<3> RigidPairs::rub(std::size_t pair, std::size_t point, PairSetting const& touch, double normal_force,
                        std::vector<RigidSurface> const& shapes) {
   Pair const& p = pairs_[pair];
   RigidSurface const &a = shapes[p.a], &b = shapes[p.b];
-  auto const last = std::lower_bound(last_stuck_.begin(), last_stuck_.end(), Stuck{pair, point, {}, {}});
+  auto const last = std::lower_bound(last_stuck_.begin(), last_stuck_.end(), StickState{pair, point, {}, {}});
   bool const known = last != last_stuck_.end() && last->pair == pair && last->point == point;
   Vec<3> const jump = moved_from(last_[p.a], a, touch.y) - moved_from(last_[p.b], b, touch.y);
   Spring const before = known ? Spring{b.turn * last->stretch, last->force} : Spring{};
-  Rubbing const now = rubbing(known ? &before : nullptr, jump, touch.normal, touch.weight * p.stiffness,
-                              setting_.friction, normal_force, touch.weight * p.area, dt_);
+  FrictionState const now = update_friction(known ? &before : nullptr, jump, touch.normal, touch.weight * p.stiffness,
+                                            setting_.friction, normal_force, touch.weight * p.area, dt_);
   totals_.friction_work += now.work;
   totals_.spring_energy += now.energy;
   stuck_.push_back({pair, point, transpose(b.turn) * now.spring.stretch, now.spring.force});
   return now.spring.force;
 }
 
-void RigidPairs::push(std::size_t pair, std::size_t point, Touch const& touch,
+void RigidPairs::push(std::size_t pair, std::size_t point, PairSetting const& touch,
                       std::vector<RigidSurface> const& shapes) {
   Pair const& p = pairs_[pair];
   RigidSurface const &a = shapes[p.a], &b = shapes[p.b];
@@ -163,7 +164,7 @@ void RigidPairs::evaluate(std::vector<RigidSurface> const& shapes, double dt) {
   std::fill(loads_.begin(), loads_.end(), Load{});
   std::fill(frequency2_.begin(), frequency2_.end(), 0.0);
   for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
-    std::vector<Touch> const all = touches(pairs_[pair], shapes);
+    std::vector<PairSetting> const all = touches(pairs_[pair], shapes);
     for (std::size_t point = 0; point < all.size(); ++point) push(pair, point, all[point], shapes);
   }
   remember(shapes);
@@ -177,13 +178,13 @@ double RigidPairs::frequency2(std::vector<double>& of_shapes) const {
   return largest;
 }
 
-double RigidPairs::closing_step(std::vector<RigidSurface> const& shapes) const {
+double RigidPairs::contact_time_step(std::vector<RigidSurface> const& shapes) const {
   double step = std::numeric_limits<double>::infinity();
   for (Pair const& p : pairs_)
     if (double const omega2 = frequency2_[p.a] + frequency2_[p.b]; omega2 > 0)
       step = std::min(step, resolved / std::sqrt(omega2));
   for (Pair const& p : pairs_)
-    for (Touch const& touch : touches(p, shapes)) {
+    for (PairSetting const& touch : touches(p, shapes)) {
       double const speed = dot(shapes[p.b].velocity_at(touch.y) - shapes[p.a].velocity_at(touch.y), touch.normal);
       double const way = closing_share * setting_.spacing + 0.5 * std::max(touch.gap, 0.0);
       if (speed > 0) step = std::min(step, way / speed);
@@ -199,7 +200,7 @@ std::vector<double> RigidPairs::state() const {
     put(all, load.moment);
   }
   all.insert(all.end(), frequency2_.begin(), frequency2_.end());
-  for (Stuck const& s : stuck_) {
+  for (StickState const& s : stuck_) {
     all.push_back(static_cast<double>(s.pair));
     all.push_back(static_cast<double>(s.point));
     put(all, s.stretch);
@@ -210,7 +211,7 @@ std::vector<double> RigidPairs::state() const {
 
 void RigidPairs::restore(std::vector<RigidSurface> const& shapes, std::vector<double> const& state) {
   remember(shapes);
-  Numbers from(state);
+  StateVector from(state);
   totals_ = {from.next(), from.next(), from.next(), from.next(), from.next()};
   for (Load& load : loads_) {
     from.take(load.force);
@@ -219,7 +220,7 @@ void RigidPairs::restore(std::vector<RigidSurface> const& shapes, std::vector<do
   for (double& f : frequency2_) f = from.next();
   stuck_.clear();
   while (from.any()) {
-    Stuck s{from.count(), from.count(), {}, {}};
+    StickState s{from.count(), from.count(), {}, {}};
     from.take(s.stretch);
     from.take(s.force);
     stuck_.push_back(s);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/mechanics/contact/friction.hpp"
-#include "piola/mechanics/contact/rigid.hpp"
 #include "piola/mechanics/contact/rigid_samples.hpp"
+#include "piola/mechanics/contact/rigid_surface.hpp"
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -43,7 +43,7 @@ class RigidPairs {
   Totals const& totals() const { return totals_; }
   /// The step in which no pair approaches by more than half its gap plus a tenth of a spacing, and which resolves an
   /// impact [s].
-  double closing_step(std::vector<RigidSurface> const& shapes) const;
+  double contact_time_step(std::vector<RigidSurface> const& shapes) const;
 
   /// State for a checkpoint, without the poses of the shapes.
   std::vector<double> state() const;
@@ -57,23 +57,23 @@ class RigidPairs {
     bool sampled;
   };
   /// A contact point of a pair, or a possible one.
-  struct Touch {
+  struct PairSetting {
     Vec<3> y, normal;   ///< [m]; that of b
     double gap;         ///< [m]
     double weight = 1;  ///< of sampled surfaces: the area [m2]
   };
   /// The friction of one point of a pair.
-  struct Stuck {
+  struct StickState {
     std::size_t pair, point;
     Vec<3> stretch, force;  ///< [m] in the axes of b at the start; [N]
-    bool operator<(Stuck const& o) const { return pair != o.pair ? pair < o.pair : point < o.point; }
+    bool operator<(StickState const& o) const { return pair != o.pair ? pair < o.pair : point < o.point; }
   };
 
-  std::vector<Touch> touches(Pair const& pair, std::vector<RigidSurface> const& shapes) const;
-  std::vector<Touch> sampled_touches(std::vector<SurfaceSample> const& samples, RigidSurface const& a,
-                                     RigidSurface const& b) const;
-  void push(std::size_t pair, std::size_t point, Touch const& touch, std::vector<RigidSurface> const& shapes);
-  Vec<3> rub(std::size_t pair, std::size_t point, Touch const& touch, double normal_force,
+  std::vector<PairSetting> touches(Pair const& pair, std::vector<RigidSurface> const& shapes) const;
+  std::vector<PairSetting> sampled_touches(std::vector<SurfaceSample> const& samples, RigidSurface const& a,
+                                           RigidSurface const& b) const;
+  void push(std::size_t pair, std::size_t point, PairSetting const& touch, std::vector<RigidSurface> const& shapes);
+  Vec<3> rub(std::size_t pair, std::size_t point, PairSetting const& touch, double normal_force,
              std::vector<RigidSurface> const& shapes);
   void add(std::size_t shape, Vec<3> const& arm, Vec<3> const& force);
   void remember(std::vector<RigidSurface> const& shapes);
@@ -84,7 +84,7 @@ class RigidPairs {
   std::vector<Load> loads_;
   std::vector<double> frequency2_;
   std::vector<RigidPose> last_;
-  std::vector<Stuck> stuck_, last_stuck_;
+  std::vector<StickState> stuck_, last_stuck_;
   double dt_ = 0;  ///< since the last evaluation [s]
   Totals totals_;
 };

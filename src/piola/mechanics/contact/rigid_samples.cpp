@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/rigid_samples.hpp"
-#include "piola/math/places.hpp"
+#include "piola/math/array_conversion.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>

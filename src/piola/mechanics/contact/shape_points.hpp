@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/mechanics/contact/rigid.hpp"
+#include "piola/mechanics/contact/rigid_surface.hpp"
 #include <array>
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/mechanics/contact/numbers.hpp"
-#include "piola/mechanics/contact/system.hpp"
+#include "piola/mechanics/contact/state_vector.hpp"
+#include "piola/mechanics/contact/surface_contact.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -24,7 +24,7 @@ void put_some(std::vector<double>& all, std::size_t n, Holds const& holds, Put c
 }  // namespace
 
 /// Saves entry faces of points, and passages.
-void System::put_sides(std::vector<double>& all) const {
+void SurfaceContactSystem::put_sides(std::vector<double>& all) const {
   all.push_back(static_cast<double>(kept_.size()));
   for (Kept const& k : kept_) {
     all.insert(all.end(), {static_cast<double>(k.point), static_cast<double>(k.rigid)});
@@ -40,7 +40,7 @@ void System::put_sides(std::vector<double>& all) const {
     all.insert(all.end(), {static_cast<double>(p.of), static_cast<double>(p.through), static_cast<double>(p.points)});
 }
 
-void System::take_sides(Numbers& from) {
+void SurfaceContactSystem::take_sides(StateVector& from) {
   kept_.clear();
   for (auto n = from.count(); n > 0; --n) {
     Kept k{static_cast<Index>(from.next()), from.count(), {}};
@@ -58,7 +58,7 @@ void System::take_sides(Numbers& from) {
     passed_.push_back({from.count(), from.count(), static_cast<std::int64_t>(from.next())});
 }
 
-std::vector<double> System::state() const {
+std::vector<double> SurfaceContactSystem::state() const {
   std::vector<double> all;
   put_sides(all);
   all.insert(all.end(),
@@ -68,7 +68,7 @@ std::vector<double> System::state() const {
     all.push_back(k);
     put(all, forces_[at(k)]);
   }
-  auto const put_between = [&](Between const& between) {
+  auto const put_between = [&](ForceMoment const& between) {
     put(all, between.force);
     put(all, between.moment);
   };
@@ -84,7 +84,7 @@ std::vector<double> System::state() const {
       [&](std::size_t k) {
         all.insert(all.end(), {traces_[k].slid, traces_[k].heat});
       });
-  for (Stuck const& s : stuck_) {
+  for (StickState const& s : stuck_) {
     all.insert(all.end(), {static_cast<double>(s.point), static_cast<double>(s.with)});
     put(all, s.stretch);
     put(all, s.force);
@@ -94,7 +94,7 @@ std::vector<double> System::state() const {
 }
 
 /// As after an evaluation at x, but without forces.
-void System::place_anew(std::vector<Vec<3>> const& x) {
+void SurfaceContactSystem::place_anew(std::vector<Vec<3>> const& x) {
   std::fill(knows_F_.begin(), knows_F_.end(), 0);
   make_lists(x);
   if (!active_points_.empty()) place_points(x);
@@ -103,8 +103,8 @@ void System::place_anew(std::vector<Vec<3>> const& x) {
   forget_forces();
 }
 
-void System::restore(std::vector<Vec<3>> const& x, std::vector<double> const& state) {
-  Numbers from(state);
+void SurfaceContactSystem::restore(std::vector<Vec<3>> const& x, std::vector<double> const& state) {
+  StateVector from(state);
   take_sides(from);
   place_anew(x);
   auto const next = [&] { return from.next(); };
@@ -114,7 +114,7 @@ void System::restore(std::vector<Vec<3>> const& x, std::vector<double> const& st
     add_force(k, {});
     from.take(forces_[at(k)]);
   }
-  auto const take_between = [&](Between& between) {
+  auto const take_between = [&](ForceMoment& between) {
     from.take(between.force);
     from.take(between.moment);
   };
@@ -125,14 +125,14 @@ void System::restore(std::vector<Vec<3>> const& x, std::vector<double> const& st
     gap_[k] = next();
     normal_force_[k] = next();
   }
-  std::fill(traces_.begin(), traces_.end(), Trace{});
+  std::fill(traces_.begin(), traces_.end(), SlipHistory{});
   for (auto n = from.count(); n > 0; --n) {
     auto const k = from.count();
     traces_[k] = {next(), next()};
   }
   stuck_.clear();
   while (from.any()) {
-    Stuck s{static_cast<std::int64_t>(next()), from.count(), {}, {}, 0};
+    StickState s{static_cast<std::int64_t>(next()), from.count(), {}, {}, 0};
     from.take(s.stretch);
     from.take(s.force);
     s.energy = next();
@@ -140,18 +140,18 @@ void System::restore(std::vector<Vec<3>> const& x, std::vector<double> const& st
   }
 }
 
-std::vector<System::AtParticle> System::at_particles() const {
+std::vector<SurfaceContactSystem::ParticleContactState> SurfaceContactSystem::at_particles() const {
   struct Areas {
     double pushed = 0, all = 0;
   };
-  std::vector<AtParticle> all(at(carriers_.count()));
+  std::vector<ParticleContactState> all(at(hosts_.count()));
   std::vector<Areas> areas(all.size());
   for (std::size_t k = 0; k < points_.size(); ++k) {
     Point const& point = points_[k];
-    AtParticle& sum = all[at(point.carrier)];
-    Areas& area = areas[at(point.carrier)];
+    ParticleContactState& sum = all[at(point.host)];
+    Areas& area = areas[at(point.host)];
     double const farthest = near * surfaces_[point.body].spacing;
-    if (!(area.all > 0)) sum = {ids()[at(carriers_.self(point.carrier))], 0, farthest, 0, 0};
+    if (!(area.all > 0)) sum = {ids()[at(hosts_.self(point.host))], 0, farthest, 0, 0};
     area.all += point.area;
     sum.gap = std::min(sum.gap, gap_[k]);
     sum.pressure += normal_force_[k];

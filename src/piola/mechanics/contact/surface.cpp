@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/surface.hpp"
-#include "piola/base/problems.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/math/solve.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
@@ -97,7 +97,7 @@ Stencil stencil_of(ParticleSet const& set, Body const& body, Around const& aroun
 
 }  // namespace
 
-Carriers::Carriers(ParticleSet const& particles, std::vector<Surface> const& surfaces)
+HostParticles::HostParticles(ParticleSet const& particles, std::vector<Surface> const& surfaces)
     : dimension_(particles.dimension), of_(surfaces.size()), begin_{0} {
   std::vector<Stencil> stencils;
   std::vector<std::int64_t> particle;  // of each host
@@ -129,10 +129,10 @@ Carriers::Carriers(ParticleSet const& particles, std::vector<Surface> const& sur
   }
 }
 
-Mat<3> Carriers::F(Index carrier, std::vector<Vec<3>> const& x) const {
+Mat<3> HostParticles::F(Index host, std::vector<Vec<3>> const& x) const {
   Mat<3> F;
-  Vec<3> const own = x[static_cast<std::size_t>(self(carrier))];
-  for (std::size_t k = first(carrier); k < last(carrier); ++k)
+  Vec<3> const own = x[static_cast<std::size_t>(self(host))];
+  for (std::size_t k = first(host); k < last(host); ++k)
     F = F + outer(x[static_cast<std::size_t>(neighbours_[k].at)] - own, neighbours_[k].g);
   for (int c = dimension_; c < 3; ++c) F(c, c) = 1;
   return F;

@@ -28,11 +28,11 @@ struct Surface {
 /// Deformation gradients of the host particles of surface points: F = sum_j (x_j - x_p) (x) g_pj over the particles of
 /// the same body around p in the reference configuration, exact for linear fields. They depend on positions alone, so
 /// that forces derived from an energy of F conserve it for any formulation.
-class Carriers {
+class HostParticles {
  public:
   /// One host for every particle with a surface point; surfaces by body. Throws InputError naming the body if the
   /// particles around one of its points lie on a line or a plane (in 2D: on a line).
-  Carriers(ParticleSet const& particles, std::vector<Surface> const& surfaces);
+  HostParticles(ParticleSet const& particles, std::vector<Surface> const& surfaces);
 
   struct Neighbour {
     Index at;  ///< index into ids()
@@ -42,14 +42,14 @@ class Carriers {
   Index count() const { return static_cast<Index>(self_.size()); }
   /// Ids of all particles whose positions are read, ascending.
   std::vector<std::int64_t> const& ids() const { return ids_; }
-  Index self(Index carrier) const { return self_[static_cast<std::size_t>(carrier)]; }  ///< index into ids()
+  Index self(Index host) const { return self_[static_cast<std::size_t>(host)]; }  ///< index into ids()
   /// The host of point k of a body.
   Index of(std::size_t body, std::size_t point) const { return of_[body][point]; }
-  std::size_t first(Index carrier) const { return begin_[static_cast<std::size_t>(carrier)]; }
-  std::size_t last(Index carrier) const { return begin_[static_cast<std::size_t>(carrier) + 1]; }
+  std::size_t first(Index host) const { return begin_[static_cast<std::size_t>(host)]; }
+  std::size_t last(Index host) const { return begin_[static_cast<std::size_t>(host) + 1]; }
   Neighbour const& neighbour(std::size_t k) const { return neighbours_[k]; }
   /// x: by index into ids() [m].
-  Mat<3> F(Index carrier, std::vector<Vec<3>> const& x) const;
+  Mat<3> F(Index host, std::vector<Vec<3>> const& x) const;
 
  private:
   int dimension_;

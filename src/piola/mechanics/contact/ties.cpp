@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/ties.hpp"
-#include "piola/exec/set_up_loop.hpp"
+#include "piola/exec/host_loops.hpp"
 #include <algorithm>
 
 namespace piola::contact {
@@ -19,7 +19,7 @@ bool Ties::is_of_first(Row const& row) const {
 }
 
 /// Computes jump and traction of a row; writes only data of the row.
-void Ties::stretch(std::size_t r, Carriers const& carriers, std::vector<Vec<3>> const& x,
+void Ties::stretch(std::size_t r, HostParticles const& hosts, std::vector<Vec<3>> const& x,
                    std::vector<RigidSurface> const& rigids) {
   Row const& row = rows_[r];
   if (has_failed(r)) {
@@ -30,11 +30,11 @@ void Ties::stretch(std::size_t r, Carriers const& carriers, std::vector<Vec<3>> 
   Vec<3> own, other;
   for (std::size_t k = row.first + 1; k < row.other; ++k) own = own + terms_[k].c * (x[place_of(terms_[k].at)] - self);
   for (std::size_t k = row.other; k < row.last; ++k) other = other + terms_[k].c * (x[place_of(terms_[k].at)] - self);
-  Pull pull{own + other, self + own, {}, {}};
+  TieForce pull{own + other, self + own, {}, {}};
   if (row.rigid != no_shape) pull.jump = pull.y - place_on(rigids[row.rigid], row.arm);
   Bond bond;
   if (rules_[row.tie].fails()) {
-    Vec<3> const n = carried_normal(carriers.F(row.carrier, x), row.N);
+    Vec<3> const n = push_forward_normal(hosts.F(row.host, x), row.N);
     double const opening = effective_opening(row.law, separation(pull.jump, n));
     if (opening > opened_[r]) opened_[r] = opening;
     bond = cohesive_bond(row.law, pull.jump, n, opened_[r]);
@@ -52,54 +52,53 @@ void Ties::stretch(std::size_t r, Carriers const& carriers, std::vector<Vec<3>> 
   pulls_[r] = pull;
 }
 
-void Ties::evaluate(Carriers const& carriers, std::vector<Vec<3>> const& x, std::vector<RigidSurface> const& rigids) {
+void Ties::evaluate(HostParticles const& hosts, std::vector<Vec<3>> const& x, std::vector<RigidSurface> const& rigids) {
   released_.clear();
   for (std::size_t r = 0; r < rows_.size(); ++r)
     if (!has_failed(r)) released_.push_back(r);
-  exec_host::for_each_in_set_up(static_cast<Index>(rows_.size()),
-                                [&](Index r) { stretch(place_of(r), carriers, x, rigids); });
+  exec_host::parallel_for(static_cast<Index>(rows_.size()), [&](Index r) { stretch(place_of(r), hosts, x, rigids); });
   std::erase_if(released_, [&](std::size_t r) { return !has_failed(r); });
-  exec_host::for_each_in_set_up(static_cast<Index>(touched_.size()), [&](Index k) {
+  exec_host::parallel_for(static_cast<Index>(touched_.size()), [&](Index k) {
     Vec<3> sum;
     for (std::size_t j = begin_[place_of(k)]; j < begin_[place_of(k) + 1]; ++j)
       sum = sum - by_particle_[j].c * pulls_[place_of(by_particle_[j].at)].by_jump;
     forces_[place_of(touched_[place_of(k)])] = sum;
   });
-  std::vector<BetweenSum> on_first(rules_.size());
-  add_up(on_first, rigids);
+  std::vector<ForceMomentSum> resultant_on_first(rules_.size());
+  add_up(resultant_on_first, rigids);
   for (std::size_t r = 0; r < rows_.size(); ++r)
     if (dot(pulls_[r].by_normal, pulls_[r].by_normal) > 0)
-      on_first[rows_[r].tie].add(turn(rows_[r], pulls_[r].by_normal, carriers, x));
-  for (std::size_t tie = 0; tie < rules_.size(); ++tie) on_first_[tie] = on_first[tie].value();
+      resultant_on_first[rows_[r].tie].add(turn(rows_[r], pulls_[r].by_normal, hosts, x));
+  for (std::size_t tie = 0; tie < rules_.size(); ++tie) on_first_[tie] = resultant_on_first[tie].value();
 }
 
-void Ties::add_up(std::vector<BetweenSum>& on_first, std::vector<RigidSurface> const& rigids) {
-  std::vector<BetweenSum> on_rigid(on_rigid_.size());
-  exec::ExactSum energy, heat, can_fail, failed;
+void Ties::add_up(std::vector<ForceMomentSum>& resultant_on_first, std::vector<RigidSurface> const& rigids) {
+  std::vector<ForceMomentSum> resultant_on_rigid(on_rigid_.size());
+  exec::ReproducibleSum energy, heat, can_fail, failed;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     Row const& row = rows_[r];
-    Pull const& pull = pulls_[r];
+    TieForce const& pull = pulls_[r];
     energy += pull.energy;
     heat += lost_[r];
     if (rules_[row.tie].fails()) can_fail += row.area;
     if (has_failed(r)) failed += row.area;
     bool const first = is_of_first(row);
     Vec<3> const f = (first ? -1.0 : 1.0) * pull.by_jump, y = first ? pull.y : pull.y - pull.jump;
-    on_first[row.tie].add(f, cross(y, f));
+    resultant_on_first[row.tie].add(f, cross(y, f));
     if (row.rigid != no_shape)
-      on_rigid[row.rigid].add(pull.by_jump, cross(rigids[row.rigid].turn * row.arm, pull.by_jump));
+      resultant_on_rigid[row.rigid].add(pull.by_jump, cross(rigids[row.rigid].turn * row.arm, pull.by_jump));
   }
-  for (std::size_t k = 0; k < on_rigid.size(); ++k) on_rigid_[k] = on_rigid[k].value();
+  for (std::size_t k = 0; k < resultant_on_rigid.size(); ++k) on_rigid_[k] = resultant_on_rigid[k].value();
   totals_ = {energy.value(), heat.value(), can_fail.value() > 0 ? failed.value() / can_fail.value() : 0};
 }
 
 /// Forces of a load on the normal of the held point, by way of F of its particle.
-Vec<3> Ties::turn(Row const& row, Vec<3> const& by_normal, Carriers const& carriers, std::vector<Vec<3>> const& x) {
-  Mat<3> const T = couple({}, row.N, carriers.F(row.carrier, x), {{}, by_normal, {}});
-  std::size_t const self = place_of(carriers.self(row.carrier));
+Vec<3> Ties::turn(Row const& row, Vec<3> const& by_normal, HostParticles const& hosts, std::vector<Vec<3>> const& x) {
+  Mat<3> const T = couple({}, row.N, hosts.F(row.host, x), {{}, by_normal, {}});
+  std::size_t const self = place_of(hosts.self(row.host));
   Vec<3> moment;
-  for (std::size_t j = carriers.first(row.carrier); j < carriers.last(row.carrier); ++j) {
-    Carriers::Neighbour const& b = carriers.neighbour(j);
+  for (std::size_t j = hosts.first(row.host); j < hosts.last(row.host); ++j) {
+    HostParticles::Neighbour const& b = hosts.neighbour(j);
     Vec<3> const f = T * b.g;
     forces_[place_of(b.at)] = forces_[place_of(b.at)] - f;
     forces_[self] = forces_[self] + f;
@@ -109,7 +108,7 @@ Vec<3> Ties::turn(Row const& row, Vec<3> const& by_normal, Carriers const& carri
 }
 
 double Ties::springs_of_shape(std::size_t shape, std::vector<RigidSurface> const& rigids) const {
-  exec::ExactSum sum;
+  exec::ReproducibleSum sum;
   for (Row const& row : rows_)
     if (row.rigid == shape)
       sum += row.area * row.law.stiffness * std::max(1.0, row.law.shear2) *
@@ -130,7 +129,7 @@ void Ties::restore(std::vector<double> const& state) {
 }
 
 std::size_t Ties::bytes() const {
-  return rows_.size() * (sizeof(Row) + sizeof(Pull) + 2 * sizeof(double)) +
+  return rows_.size() * (sizeof(Row) + sizeof(TieForce) + 2 * sizeof(double)) +
          (terms_.size() + by_particle_.size()) * sizeof(Term) + forces_.size() * sizeof(Vec<3>) +
          touched_.size() * (sizeof(Index) + sizeof(std::size_t));
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/mechanics/contact/between.hpp"
+#include "piola/mechanics/contact/blended_planes.hpp"
 #include "piola/mechanics/contact/cohesive.hpp"
-#include "piola/mechanics/contact/planes.hpp"
-#include "piola/mechanics/contact/rigid.hpp"
+#include "piola/mechanics/contact/force_moment.hpp"
+#include "piola/mechanics/contact/rigid_surface.hpp"
 #include "piola/mechanics/contact/surface.hpp"
 #include "piola/mechanics/contact/tie_rule.hpp"
 #include <array>
@@ -21,10 +21,10 @@ class Ties {
   Ties() = default;
   /// Ties the surfaces in contact at x [m], the start. `set` has the reference positions.
   Ties(std::vector<TieRule> rules, ParticleSet const& set, std::vector<Surface> const& surfaces,
-       Carriers const& carriers, std::vector<Vec<3>> const& x, std::vector<RigidSurface> const& rigids = {});
+       HostParticles const& hosts, std::vector<Vec<3>> const& x, std::vector<RigidSurface> const& rigids = {});
 
   /// Result of the search of a tie at the start.
-  struct Found {
+  struct TieReport {
     std::array<std::int64_t, 2> points{};  ///< tied points of both bodies
     double area = 0;                       ///< tied area, mean of both bodies [m^(Dim-1)]
     std::int64_t left = 0;                 ///< points of both that face the other body from farther away
@@ -34,7 +34,7 @@ class Ties {
     double stiffness = 0;                                      ///< K [Pa/m]
   };
   std::vector<TieRule> const& rules() const { return rules_; }
-  std::vector<Found> const& found() const { return found_; }
+  std::vector<TieReport> const& found() const { return found_; }
 
   /// A tied surface point of a body; `other`: the body it is tied to, or a rigid shape, numbered after the bodies.
   struct Hold {
@@ -47,7 +47,7 @@ class Ties {
   std::vector<std::size_t> const& released() const { return released_; }
 
   /// Computes the forces [N] at x [m]: functions of x and of the largest openings so far, which it updates.
-  void evaluate(Carriers const& carriers, std::vector<Vec<3>> const& x, std::vector<RigidSurface> const& rigids = {});
+  void evaluate(HostParticles const& hosts, std::vector<Vec<3>> const& x, std::vector<RigidSurface> const& rigids = {});
   std::vector<Vec<3>> const& forces() const { return forces_; }
   std::vector<Index> const& pushed() const { return touched_; }  ///< ascending
 
@@ -57,11 +57,11 @@ class Ties {
     double failed = 0;  ///< failed fraction of the area that can fail
   };
   Totals const& totals() const { return totals_; }
-  using Force = Between;
+  using Force = ForceMoment;
   /// Force of a tie on its first body; moment about the origin.
-  Force const& on_first(std::size_t tie) const { return on_first_[tie]; }
+  Force const& resultant_on_first(std::size_t tie) const { return on_first_[tie]; }
   /// Force of all ties on a rigid shape; moment about its centre.
-  Force const& on_rigid(std::size_t shape) const { return on_rigid_[shape]; }
+  Force const& resultant_on_rigid(std::size_t shape) const { return on_rigid_[shape]; }
   /// Sum over ties of the squared frequencies of a free rigid shape on points at rest, without failure [1/s2]. Added to
   /// frequency2() it bounds the square of the frequency of both.
   double springs_of_shape(std::size_t shape, std::vector<RigidSurface> const& rigids) const;
@@ -81,7 +81,7 @@ class Ties {
   struct Row {
     std::size_t tie;
     Hold hold;
-    Index carrier;  ///< host of the tied point
+    Index host;  ///< host of the tied point
     Vec<3> N;
     double area;  ///< half the area of the tied point, because both sides are tied
     CohesiveLaw law;
@@ -90,7 +90,7 @@ class Ties {
     std::size_t rigid = no_shape;
     Vec<3> arm = {};  ///< in the axes of the rigid shape, from its centre [m]
   };
-  struct Pull {
+  struct TieForce {
     Vec<3> jump, y, by_jump, by_normal;
     double energy = 0;
   };
@@ -104,14 +104,14 @@ class Ties {
   bool is_of_first(Row const& row) const;
   static bool selects(TieRule const& rule, SurfacePoint const& point, Binding const& at);
   void list_by_particle(std::size_t particles);
-  void stretch(std::size_t row, Carriers const& carriers, std::vector<Vec<3>> const& x,
+  void stretch(std::size_t row, HostParticles const& hosts, std::vector<Vec<3>> const& x,
                std::vector<RigidSurface> const& rigids);
   /// Moment of a row on the first body of the tie.
-  Vec<3> turn(Row const& row, Vec<3> const& by_normal, Carriers const& carriers, std::vector<Vec<3>> const& x);
-  void add_up(std::vector<BetweenSum>& on_first, std::vector<RigidSurface> const& rigids);
+  Vec<3> turn(Row const& row, Vec<3> const& by_normal, HostParticles const& hosts, std::vector<Vec<3>> const& x);
+  void add_up(std::vector<ForceMomentSum>& resultant_on_first, std::vector<RigidSurface> const& rigids);
 
   std::vector<TieRule> rules_;
-  std::vector<Found> found_;
+  std::vector<TieReport> found_;
   std::vector<Row> rows_;
   std::vector<Term> terms_;
   std::vector<Index> touched_;
@@ -119,7 +119,7 @@ class Ties {
   std::vector<Term> by_particle_;   ///< at: index of a row
   std::vector<double> opened_;      ///< by row: largest effective opening [m]
   std::vector<double> lost_;        ///< by row: energy dissipated by its failure [J]
-  std::vector<Pull> pulls_;         ///< by row
+  std::vector<TieForce> pulls_;     ///< by row
   std::vector<std::size_t> released_;
   std::vector<Vec<3>> forces_;
   std::vector<Force> on_first_, on_rigid_;

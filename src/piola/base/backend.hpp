@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// The back end ("machine") for which a translation unit is compiled: `host` (plain, everything but the loops),
+/// `scalar`, `v3`, `v4` (the loops, one instruction set each), `cuda`. All code that may be inlined into loops lives in
+/// an inline namespace of that name, so that the same source compiled for several instruction sets fits in one program.
+#ifndef PIOLA_BACKEND
+#define PIOLA_BACKEND host
+#endif
+#define PIOLA_TEXT_OF(x) #x
+#define PIOLA_TEXT(x) PIOLA_TEXT_OF(x)
+#define PIOLA_BACKEND_NAME PIOLA_TEXT(PIOLA_BACKEND)
+
+#if defined(__CUDACC__)
+#define PIOLA_FN __host__ __device__ inline
+#else
+#define PIOLA_FN inline
+#endif

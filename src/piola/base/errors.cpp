@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/base/errors.hpp"
+#include <algorithm>
+#include <numeric>
+
+namespace piola {
+namespace {
+
+std::string place_text(Place const& place) {
+  std::string text = place.file;
+  if (place.line > 0) text += ":" + std::to_string(place.line);
+  if (place.line > 0 && place.column > 0) text += ":" + std::to_string(place.column);
+  return text;
+}
+
+}  // namespace
+
+void Problems::add(Place const& place, std::string text) {
+  std::string const where = place_text(place);
+  lines_.push_back(where.empty() ? std::move(text) : where + ": " + text);
+  places_.push_back(place);
+}
+
+void Problems::sort_by_place() {
+  std::vector<std::size_t> order(lines_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(places_[a].line, places_[a].column) < std::pair(places_[b].line, places_[b].column);
+  });
+  std::vector<std::string> lines;
+  std::vector<Place> places;
+  for (std::size_t const i : order) {
+    lines.push_back(std::move(lines_[i]));
+    places.push_back(std::move(places_[i]));
+  }
+  lines_ = std::move(lines);
+  places_ = std::move(places);
+}
+
+void Problems::raise_if_any() const {
+  if (lines_.empty()) return;
+  std::string message;
+  for (std::string const& line : lines_) message += (message.empty() ? "" : "\n") + line;
+  throw InputError(message);
+}
+
+}  // namespace piola

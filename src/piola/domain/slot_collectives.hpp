@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/domain/communicator.hpp"
+#include "piola/domain/partition.hpp"
+#include "piola/exec/device_loops.hpp"
+#include "piola/exec/field.hpp"
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+/// Collectives for a body whose slots are numbered alike on all ranks, each of which owns some of them. Halos are in
+/// halo_plan.hpp. Every function except even_local_range() is collective; on one rank none communicates.
+namespace piola {
+
+/// The part of `whole` that this rank works on when the range is divided evenly among ranks.
+Range even_local_range(Range whole);
+
+/// Replicates `size` values per slot, of slot i at data[i * size]. In: the values in even_local_range(whole); out:
+/// those of the whole range. Collective.
+void allgather_slots(double* data, std::ptrdiff_t size, Range whole);
+
+/// `size` values per slot of the range `whole`, of slot i at data[i * size]. Does not own the data.
+struct SlotArray {
+  double* data;
+  std::ptrdiff_t size;
+  Range whole;
+};
+/// As above for several arrays in one allgather. `said` is appended to the message; returns the `said` of all ranks, in
+/// rank order.
+std::vector<double> allgather_slots(std::span<SlotArray const> arrays, std::span<double const> said = {});
+
+/// As above, and reduces `sum` over all ranks in the same message. T has `void add(T const&)`, e.g. exact sums.
+/// Collective.
+template <class T>
+void allgather_slots_and_sum(std::span<SlotArray const> arrays, T& sum) {
+  using Numbers = std::array<double, sizeof(T) / 8>;
+  static_assert(std::is_trivially_copyable_v<T> && sizeof(Numbers) == sizeof(T), "it travels as numbers");
+  if (!comm::is_parallel()) return;
+  Numbers said = std::bit_cast<Numbers>(sum);
+  std::vector<double> const all = allgather_slots(arrays, said);
+  for (std::size_t first = 0; first < all.size(); first += said.size()) {
+    std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(first), said.size(), said.begin());
+    if (first == 0)
+      sum = std::bit_cast<T>(said);
+    else
+      sum.add(std::bit_cast<T>(said));
+  }
+}
+
+/// Partition of the slots of a body by even_range_of_rank(); the first `particles` of all slots hold a particle.
+struct DistributedSlots {
+  Index slots, particles;
+  /// Occupied slots of a rank.
+  Range of(int rank) const;
+  Range own() const { return of(comm::rank()); }
+  /// Replicates `width` values per particle. In: the values of local particles; out: those of all particles.
+  /// Collective.
+  void complete(std::span<double> values, std::size_t width) const;
+  /// Gathers on rank 0. `values`: `width` values per slot of this rank. Calls take(range, values) on rank 0 for one
+  /// rank after the other, so that it holds at most one more partition at a time. Inverse of deal(). Collective.
+  template <class F>
+  void collect(std::size_t width, std::vector<double> values, F const& take) const {
+    for (int rank = 0; rank < comm::size(); ++rank) {
+      Range const part = of(rank);
+      if (comm::rank() == 0 && rank > 0) values.resize(static_cast<std::size_t>(part.last - part.first) * width);
+      if (rank > 0) comm::send_to(rank, 0, values);
+      if (comm::rank() == 0) take(part, values);
+    }
+  }
+  /// Scatters from rank 0: give(range, values) is called on rank 0 for each rank and fills its values. Returns the
+  /// values of this rank's slots. Inverse of collect(). Collective.
+  template <class F>
+  std::vector<double> deal(std::size_t width, F const& give) const {
+    std::vector<double> mine;
+    for (int rank = comm::size() - 1; rank >= 0; --rank) {
+      if (comm::rank() != 0 && comm::rank() != rank) continue;
+      Range const part = of(rank);
+      mine.resize(static_cast<std::size_t>(part.last - part.first) * width);
+      if (comm::rank() == 0) give(part, std::span<double>(mine));
+      if (rank > 0) comm::send_to(0, rank, mine);
+    }
+    return mine;
+  }
+};
+
+/// Replicates a field at `slots`, a list that is identical on all ranks; each value is taken from the rank that owns
+/// the slot. For short lists: the message has the length of the list on every rank. Collective.
+void allgather_selected_slots(FieldRef const& field, Range own, std::span<Index const> slots, int components);
+
+/// Reduces a failure over ranks: the one at the lowest particle id is set on all ranks. Collective.
+void allreduce_first_failure(FailureSlot& slot);
+
+}  // namespace piola

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/exec/backend_registry.hpp"
+#include <fmt/format.h>
+
+namespace piola::exec_host {
+namespace {
+
+#if defined(__x86_64__)
+bool has_v3() {
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+}
+bool has_v4() {
+  return has_v3() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512cd");
+}
+#else
+bool has_v3() { return false; }
+bool has_v4() { return false; }
+#endif
+
+/// The first machine of this program that the processor can run and that was asked for.
+std::string_view find_backend(std::string_view asked) {
+#define PIOLA_NAME(backend) \
+  if (processor_can_run(#backend) && (asked == "auto" || asked == #backend)) return #backend;
+  PIOLA_EACH_MACHINE(PIOLA_NAME)
+#undef PIOLA_NAME
+  return asked;
+}
+
+std::string_view best_of_processor() { return has_v4() ? "v4" : has_v3() ? "v3" : "scalar"; }
+
+}  // namespace
+
+bool processor_can_run(std::string_view backend) {
+  if (backend == "v3") return has_v3();
+  if (backend == "v4") return has_v4();
+  return backend == "scalar" || backend == "native";
+}
+
+std::string backend_text(std::string_view asked) {
+  return std::string(find_backend(asked)) + " of a processor with " + std::string(best_of_processor());
+}
+
+std::string not_usable(std::string_view backend, char const* const* usable) {
+  if (*usable == nullptr)
+    return "this program was built for another processor (it has no instruction set that this one can run) - build it "
+           "here with tools/quickstart, or for every processor of the family with cmake --preset release";
+  std::string known = "auto";
+  for (auto name = usable; *name != nullptr; ++name) known += fmt::format(", {}", *name);
+  return fmt::format("machine '{}' is unknown or not usable on this processor (usable: {})", backend, known);
+}
+
+}  // namespace piola::exec_host

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/exec/lazy_zero_array.hpp"
+#include "piola/formulations/adaptle/fields.hpp"
+#include "piola/formulations/adaptle/lattice_stencils.hpp"
+#include <algorithm>
+#include <vector>
+
+namespace piola::adaptle {
+
+/// Reference neighbours of the local particles, constant between repartitions, and participation in material sums,
+/// updated at each conversion.
+class MaterialLists {
+ public:
+  /// Builds lists within 2h of each body, in order of ids, with the data for the sums of `settings`; sets positions and
+  /// volumes of ghosts. Particles with a singular correction keep plain gradients. own: local slots of each body.
+  /// Collective.
+  void build(ParticleSet const& set, ParticleOrder const& order, std::vector<BodyConstants> const& bodies,
+             std::vector<Range> const& own, Fields& fields, Settings const& settings, int lanes);
+
+  /// Determines which particles need a deformation gradient and which receive material forces. Kinematic ones get gap =
+  /// 0, others -1. Deleted ones are removed from the sums of their neighbours. Reads phi and alive of all particles.
+  void choose(Fields& fields, bool as_published);
+
+  /// Calls f(b) for the reference neighbours of a within the distance [m].
+  template <class F>
+  void each_neighbour(Index a, double within, Fields const& fields, F const& f) const {
+    for (Offset k = begin_[static_cast<std::size_t>(a)]; k < begin_[static_cast<std::size_t>(a) + 1]; ++k) {
+      Index const b = neighbour_[static_cast<std::size_t>(k)];
+      if (b >= particles_) continue;
+      double square = 0;
+      for (int c = 0; c < 3; ++c) {
+        double const d = fields.X.at(b, c) - fields.X.at(a, c);
+        square += d * d;
+      }
+      if (square <= within * within) f(b);
+    }
+  }
+
+  /// Calls f(b) for the reference neighbours b of the slots of a range.
+  template <class F>
+  void each_neighbour_of(Range slots, F const& f) const {
+    for (Offset k = begin_[static_cast<std::size_t>(slots.first)]; k < begin_[static_cast<std::size_t>(slots.last)];
+         ++k)
+      if (Index const b = neighbour_[static_cast<std::size_t>(k)]; b < particles_) f(b);
+  }
+
+  void put_into(MaterialTable& table) const;
+  bool built() const { return !begin_.empty(); }
+  /// Whether some body is not on a lattice, so that records are read from a table of all particles.
+  bool needs_records() const {
+    return std::any_of(rows_.begin(), rows_.end(), [](LatticeStencils const& rows) { return !rows.is_lattice(); });
+  }
+  int neighbours(Index a) const {
+    auto const i = static_cast<std::size_t>(a);
+    return static_cast<int>(begin_[i + 1] - begin_[i]) - filled_[i];
+  }
+  std::size_t bytes() const;
+
+ private:
+  struct BodyInput {
+    Body const& geometry;
+    BodyConstants const& constants;
+    Range own;
+  };
+  void list(ParticleSet const& set, ParticleOrder const& order, BodyInput const& body, int lanes);
+  /// Calls f(slot) for the local particles.
+  template <class F>
+  void for_each_local(F const& f) const {
+    for (Range const& own : own_)
+      for (Index i = own.first; i < own.last; ++i) f(i);
+  }
+  bool has(Index slot, Range const& own) const { return slot >= own.first && slot < own.last; }
+  void find_edge();
+  void mark_mixed(Fields const& fields);
+  void add_pair(int dimension, double h, Index j, double square);
+  void correct(Fields& fields, std::vector<BodyConstants> const& bodies, int dimension);
+  void invert(Fields& fields, int dimension, bool corrected);
+  template <class F>
+  void sum_gradients(F const& active, Fields& fields);
+  /// s of pair k as used by the sums.
+  double gradient(Offset k) const {
+    auto const place = static_cast<std::size_t>(k);
+    return rounded_ ? static_cast<double>(gradient_[place]) : s_[place];
+  }
+
+  Index particles_ = 0;
+  bool published_ = false, rounded_ = false, deleted_ = false;
+  std::vector<Range> own_;
+  std::vector<Index> edge_;  ///< local particles with ghost neighbours
+  LazyZeroArray<Offset> begin_;
+  std::vector<Index> neighbour_;
+  std::vector<float> gradient_;
+  std::vector<double> s_, W_;
+  LazyZeroArray<std::uint8_t> filled_;  ///< per slot: number of fillers at the end of its list
+  LazyZeroArray<std::uint8_t> part_;
+  std::vector<LatticeStencils> rows_;    ///< per body
+  std::vector<MaterialRows> row_views_;  ///< per body
+};
+
+}  // namespace piola::adaptle

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/adaptle/spatial_halo_exchange.hpp"
+#include "piola/domain/communicator.hpp"
+#include "piola/exec/host_loops.hpp"
+#include "piola/formulations/adaptle/spatial_lists.hpp"
+#include "piola/formulations/adaptle/subscript.hpp"
+#include <algorithm>
+#include <cstring>
+#include <iterator>
+
+namespace piola::adaptle {
+namespace {
+
+/// A particle in a message: its slot, then its position.
+constexpr std::size_t of_position = 4;
+
+/// Number of values per rank, as start offsets for complete().
+std::vector<std::size_t> starts_of(std::size_t own) {
+  auto const ranks = at(comm::size());
+  std::vector<double> counts(ranks, 0);
+  std::vector<std::size_t> one_each(ranks + 1), starts{0};
+  for (std::size_t r = 0; r <= ranks; ++r) one_each[r] = r;
+  counts[at(comm::rank())] = static_cast<double>(own);
+  comm::allgather(counts, one_each);
+  for (double const count : counts) starts.push_back(starts.back() + static_cast<std::size_t>(count));
+  return starts;
+}
+
+}  // namespace
+
+SpatialHaloExchange::SpatialHaloExchange(std::span<Partition const> cuts, ParticleOrder const& order)
+    : order_(&order), sends_(at(comm::size())), receives_(at(comm::size())) {
+  for (Partition const& body : cuts)
+    for (Index i = body.own().first; i < body.own().last; ++i) own_.push_back(i);
+  if (order.dealt()) std::ranges::sort(own_, {}, [&](Index slot) { return order.id(slot); });
+}
+
+std::vector<double> SpatialHaloExchange::coordinates(System const& s, std::size_t axis) const {
+  std::vector<std::size_t> const starts = starts_of(own_.size());
+  std::vector<double> all(starts.back());
+  double* to = all.data() + starts[at(comm::rank())];
+  for (Index const slot : own_) *to++ = s.position[3 * at(slot) + axis];
+  comm::allgather(all, starts);
+  return all;
+}
+
+void SpatialHaloExchange::forget() {
+  for (auto* sides : {&sends_, &receives_})
+    for (Side& side : *sides) {
+      side.meets = false;
+      side.slots.clear();
+      for (auto& particles : side.particles) particles.clear();
+    }
+}
+
+void SpatialHaloExchange::find_own_cells(System const& s, CellList const& grid) {
+  constexpr Index none = -1;
+  number_of_.assign(at(grid.cell_count()), none);
+  mine_.clear();
+  std::vector<std::array<double, 3>> corner;
+  for (Index const slot : own_) {
+    Index const cell = grid.keys()[slot];
+    Index& number = number_of_[at(cell)];
+    if (number == none) {
+      number = static_cast<Index>(mine_.size());
+      mine_.push_back({cell, s.body_of[slot]});
+      corner.push_back(grid.corner(cell));
+    }
+    std::array<double, 3> place = grid.where(slot);
+    for (std::size_t c = 0; c < 3; ++c) place[c] -= corner[at(number)][c];
+    mine_[at(number)].add(s.body_of[slot], s.eulerian[slot] != 0, place);
+  }
+}
+
+/// Afterwards all ranks have the cells of all.
+void SpatialHaloExchange::allgather_cells() {
+  constexpr std::size_t width = sizeof(HaloCells::Cell) / sizeof(double);
+  static_assert(width * sizeof(double) == sizeof(HaloCells::Cell), "a cell travels as numbers");
+  starts_ = starts_of(mine_.size());
+  all_.resize(starts_.back());
+  std::vector<double> numbers(starts_.back() * width);
+  std::vector<std::size_t> starts;
+  for (std::size_t const start : starts_) starts.push_back(start * width);
+  std::memcpy(numbers.data() + starts[at(comm::rank())], mine_.data(), mine_.size() * sizeof(HaloCells::Cell));
+  comm::allgather(numbers, starts);
+  std::memcpy(static_cast<void*>(all_.data()), numbers.data(), numbers.size() * sizeof(double));
+}
+
+/// Selects the particles to send to each rank: those within one cell edge of the bounds of that rank's reading
+/// particles.
+void SpatialHaloExchange::select_sends(CellList const& grid, HaloCells const& marks) {
+  int const own = comm::rank();
+  readers_.clear();
+  first_reader_.assign(1, 0);
+  for (HaloCells::Cell const& mine : mine_) {
+    for (HaloCells::Reader const& reader : marks.readers(mine.cell, own)) {
+      readers_.push_back({reader.rank, reader.box.bounds(grid.corner(reader.cell))});
+      sends_[at(reader.rank)].meets = true;
+    }
+    first_reader_.push_back(readers_.size());
+    marks.each_exporter(mine.cell, own, [&](int rank) { receives_[at(rank)].meets = true; });
+  }
+  double const reach = grid.search_radius_in_cells();
+  for (Index const slot : own_) {
+    auto const number = at(number_of_[at(grid.keys()[slot])]);
+    if (first_reader_[number] == first_reader_[number + 1]) continue;
+    std::array<double, 3> const place = grid.where(slot);
+    int told = own;
+    for (std::size_t k = first_reader_[number]; k < first_reader_[number + 1]; ++k) {
+      // The comparison is false for NaN, so particles with NaN positions are sent.
+      if (readers_[k].rank == told || readers_[k].where.square_from(place) > reach * reach) continue;
+      told = readers_[k].rank;
+      sends_[at(told)].slots.push_back(slot);
+    }
+  }
+}
+
+/// Exchanges the number of particles to send, between ranks with adjacent cells.
+void SpatialHaloExchange::send_counts() {
+  for (Side& side : sends_) side.values.assign(side.meets ? 1 : 0, static_cast<double>(side.slots.size()));
+  for (Side& side : receives_) side.values.assign(side.meets ? 1 : 0, 0);
+  send();
+  for (Side& side : receives_) side.slots.resize(side.meets ? static_cast<std::size_t>(side.values.front()) : 0);
+}
+
+/// The values of all sides, which have their sizes.
+void SpatialHaloExchange::send() {
+  auto const messages = [](std::vector<Side>& sides) {
+    std::vector<comm::Message> all;
+    for (std::size_t rank = 0; rank < sides.size(); ++rank)
+      if (std::vector<double>& values = sides[rank].values; !values.empty())
+        all.push_back({static_cast<int>(rank), values.data(), values.size()});
+    return all;
+  };
+  comm::exchange(messages(receives_), messages(sends_));
+}
+
+void SpatialHaloExchange::send_positions(System const& s) {
+  for (auto* sides : {&sends_, &receives_})
+    for (Side& side : *sides) side.values.resize(side.slots.size() * of_position);
+  for (Side& side : sends_)
+    for (std::size_t k = 0; k < side.slots.size(); ++k) {
+      double* to = &side.values[k * of_position];
+      *to = side.slots[k];
+      std::copy_n(s.position + std::ptrdiff_t{3} * side.slots[k], 3, to + 1);
+    }
+  send();
+  received_.clear();
+  for (Side& side : receives_)
+    for (std::size_t k = 0; k < side.slots.size(); ++k) {
+      double const* from = &side.values[k * of_position];
+      side.slots[k] = static_cast<Index>(*from);
+      std::copy_n(from + 1, 3, s.position + std::ptrdiff_t{3} * side.slots[k]);
+      received_.push_back(side.slots[k]);
+    }
+}
+
+void SpatialHaloExchange::meet(System const& s, CellList const& grid, HaloCells& marks) {
+  forget();
+  find_own_cells(s, grid);
+  allgather_cells();
+  marks.start(grid.shape(), s.dimension);
+  for (std::size_t rank = 0; rank < sends_.size(); ++rank)
+    for (std::size_t k = starts_[rank]; k < starts_[rank + 1]; ++k) marks.add(all_[k], static_cast<int>(rank));
+  marks.finish(SpatialLists::touching(s));
+  select_sends(grid, marks);
+  send_counts();
+  send_positions(s);
+  auto const by_id = [&](Index slot) { return order_->id(slot); };
+  std::ranges::sort(received_, {}, by_id);
+  present_.clear();
+  std::ranges::merge(own_, received_, std::back_inserter(present_), {}, by_id, by_id);
+}
+
+void SpatialHaloExchange::Side::choose(CellList const& grid, HaloCells const& marks) {
+  for (Index const slot : slots) {
+    std::uint8_t const told = marks.told(grid.keys()[slot]);
+    if ((told & HaloCells::flow) != 0) particles[flow].push_back(grid.sorted()[slot]);
+    if ((told & HaloCells::touch) != 0) particles[touch].push_back(slot);
+  }
+}
+
+void SpatialHaloExchange::choose(CellList const& grid, HaloCells const& marks) {
+  for (auto* sides : {&sends_, &receives_})
+    for (Side& side : *sides) side.choose(grid, marks);
+}
+
+std::size_t SpatialHaloExchange::width_of(std::vector<FieldPart> const& parts) {
+  std::size_t width = 0;
+  for (FieldPart const& part : parts) width += at(part.count);
+  return width;
+}
+
+std::size_t SpatialHaloExchange::Side::numbers(Told const& told) const {
+  std::size_t count = 0;
+  for (std::size_t kind = 0; kind < told.size(); ++kind) count += particles[kind].size() * width_of(told[kind]);
+  return count;
+}
+
+template <class F>
+void SpatialHaloExchange::Side::each(Told const& told, F const& f) {
+  double* first = values.data();
+  for (std::size_t kind = 0; kind < told.size(); ++kind) {
+    std::size_t const width = width_of(told[kind]);
+    exec_host::parallel_for(static_cast<Index>(particles[kind].size()), [&](Index k) {
+      double* value = first + at(k) * width;
+      for (FieldPart const& part : told[kind])
+        for (int c = 0; c < part.count; ++c) f(*value++, value_at(part.field, particles[kind][at(k)], part.first + c));
+    });
+    first += particles[kind].size() * width;
+  }
+}
+
+void SpatialHaloExchange::exchange(Told const& told) {
+  for (auto* sides : {&sends_, &receives_})
+    for (Side& side : *sides) side.values.resize(side.numbers(told));
+  for (Side& side : sends_) side.each(told, [](double& value, double& here) { value = here; });
+  send();
+  for (Side& side : receives_) side.each(told, [](double& value, double& here) { here = value; });
+}
+
+}  // namespace piola::adaptle

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/adaptle/step_halo_exchanges.hpp"
+#include "piola/domain/communicator.hpp"
+#include "piola/domain/first_failure.hpp"
+#include "piola/formulations/adaptle/records.hpp"
+#include "piola/formulations/adaptle/subscript.hpp"
+#include <algorithm>
+#include <array>
+
+namespace piola::adaptle {
+namespace {
+
+/// Calls f(layout) with the layout of the records of reference neighbours in `dimension` dimensions.
+template <class F>
+auto with_material(int dimension, F const& f) {
+  return dimension == 2 ? f(MaterialRecord<2>{}) : f(MaterialRecord<3>{});
+}
+
+/// Components [first, last) of the records of spatial neighbours: those that the correction reads, or the rest.
+struct SpatialParts {
+  int corrected, all;
+};
+template <int D, bool Corrected>
+SpatialParts parts_of(Settings const& settings) {
+  using R = SpatialRecord<D, Corrected>;
+  return {R::volume + 1, R::values(settings.artificial_stress)};
+}
+SpatialParts parts_of(System const& s) {
+  if (s.dimension == 2) return s.settings.corrected ? parts_of<2, true>(s.settings) : parts_of<2, false>(s.settings);
+  return s.settings.corrected ? parts_of<3, true>(s.settings) : parts_of<3, false>(s.settings);
+}
+
+FieldRef spatial_records(System const& s) {
+  return {.data = s.spatial.record, .component_stride = 1, .particle_stride = s.spatial.stride};
+}
+
+/// Records of the reference neighbours of a body, by its own slots.
+FieldRef material_records(System const& s, int body) {
+  MaterialRows const& rows = s.material.rows_of[body];
+  if (rows.record != nullptr) return {.data = rows.record, .component_stride = rows.stride, .particle_stride = 1};
+  int const stride = with_material(s.dimension, [&](auto r) { return decltype(r)::stride(s.settings.published); });
+  return {.data = s.material.record + std::ptrdiff_t{s.body[body].first} * stride,
+          .component_stride = 1,
+          .particle_stride = stride};
+}
+
+/// By the slots of a body alone.
+FieldRef of_body(FieldRef field, BodyConstants const& body) {
+  field.data += body.first * field.particle_stride;
+  return field;
+}
+
+/// Particles stand in the order of ids.
+SlotOrder id_order(ParticleSet const&, Body const& body, int /*ranks*/) {
+  SlotOrder order;
+  for (std::int64_t id = body.first; id < body.last; ++id) order.id.push_back(id);
+  order.particles = static_cast<Index>(order.id.size());
+  return order;
+}
+
+}  // namespace
+
+StepHaloExchanges::StepHaloExchanges(System const& s, MaterialLists const& lists, std::vector<Partition> cuts,
+                                     ParticleOrder const& order)
+    : near_(cuts, order), cuts_(std::move(cuts)) {
+  for (int b = 0; b < s.bodies && lists.built(); ++b) to_neighbours_.push_back(reference_halo(s, lists, b));
+}
+
+/// Displacement, velocity, volume and viscosity before the first sweep, stress data before the second. If particles
+/// beside Eulerian ones remove damping and springs of their neighbours, also F and its rate.
+StepHaloExchanges::ReferenceHalo StepHaloExchanges::reference_halo(System const& s, MaterialLists const& lists,
+                                                                   int body) const {
+  BodyConstants const& b = s.body[body];
+  std::vector<Index> read;
+  lists.each_neighbour_of(s.part[body], [&](Index i) { read.push_back(i - b.first); });
+  ReferenceHalo told{
+      HaloPlan(cuts_[static_cast<std::size_t>(body)].from_zero(), std::move(read)), material_records(s, body), {}, {}};
+  auto const [motion, stress, values] = with_material(s.dimension, [&](auto r) {
+    using R = decltype(r);
+    return std::array{R::X, R::A, R::values(s.settings.published)};
+  });
+  told.stress = told.motion;
+  told.stress.data += stress * told.motion.component_stride;
+  for (Index const i : told.plan.received())
+    for (int c = 0; c < s.dimension; ++c) value_at(told.motion, i, motion + c) = value_at(s.field.X, i + b.first, c);
+  told.plan.add(told.motion, 0, motion);
+  told.plan.add(told.stress, 0, values - stress);
+  if (b.hourglass > 0 || b.hourglass_stiffness > 0) {
+    told.hourglass = {of_body(s.field.F, b), of_body(s.field.F_rate, b)};
+    for (FieldRef const& field : told.hourglass) told.plan.add(field, 0, 9);
+  }
+  return told;
+}
+
+/// Failures travel with the bounds of all particles.
+SpatialLists::RemoteParticles StepHaloExchanges::before_lists(System const& s) {
+  struct StepReduction {
+    FirstFailure first;
+    CoordinateBounds bounds;
+    void add(StepReduction const& other) {
+      first.add(other.first);
+      bounds.add(other.bounds);
+    }
+  } said{FirstFailure(*s.failure), {}};
+  if (SpatialLists::needed(s)) said.bounds = bounds_of(s.position, 3, near_.own(), s.dimension);
+  comm::allreduce_sum(said);
+  said.first.put(*s.failure);
+  return {&near_, said.bounds};
+}
+
+void StepHaloExchanges::after_prediction(System const& s) {
+  for (ReferenceHalo& told : to_neighbours_)
+    if (s.material.used) told.plan.exchange(told.motion);
+}
+
+/// Contacts read positions where steps have left them.
+void StepHaloExchanges::after_lists(System const& s) {
+  near_.each_touched([&](Index i) {
+    for (int c = 0; c < 3; ++c) value_at(s.field.x, i, c) = s.position[std::ptrdiff_t{3} * i + c];
+  });
+}
+
+void StepHaloExchanges::after_half_state(System const& s) {
+  for (ReferenceHalo& told : to_neighbours_) {
+    if (!s.material.used) break;
+    std::vector<FieldRef> fields{told.stress};
+    if (s.eulerians > 0) fields.insert(fields.end(), told.hourglass.begin(), told.hourglass.end());
+    told.plan.exchange(fields);
+  }
+  auto const [corrected, all] = parts_of(s);
+  near_.exchange({{{{spatial_records(s), 0, s.settings.corrected ? corrected : all}},
+                   {{s.field.v_half, 0, 3}, {s.field.volume_half, 0, 1}}}});
+}
+
+void StepHaloExchanges::after_correction(System const& s) {
+  auto const [corrected, all] = parts_of(s);
+  near_.exchange({{{{spatial_records(s), corrected, all - corrected}}, {}}});
+}
+
+CommPattern StepHaloExchanges::comm_pattern(System const& s, SpatialLists const& lists, int body) {
+  BodyConstants const& b = s.body[body];
+  bool const touching = SpatialLists::touching(s), is_eulerian = s.eulerians > 0;
+  CommPattern talk;
+  talk.order = &id_order;
+  if (s.material.used) {
+    auto const [motion, stress] = with_material(s.dimension, [&](auto r) {
+      using R = decltype(r);
+      return std::array{R::X, R::values(s.settings.published) - R::A};
+    });
+    bool const with_F = is_eulerian && (b.hourglass > 0 || b.hourglass_stiffness > 0);
+    talk.messages = {{{2 * b.reference_h, motion}}, {{2 * b.reference_h, stress + (with_F ? 18 : 0)}}};
+  }
+  auto const [corrected, all] = parts_of(s);
+  constexpr int slot_and_place = 4, of_contact = 4;
+  talk.near.emplace();
+  talk.near->messages = {{slot_and_place, 0, 0}, {0, s.settings.corrected ? corrected : all, of_contact}};
+  if (s.settings.corrected) talk.near->messages.push_back({0, all - corrected, 0});
+  talk.near->cell = lists.widest();
+  talk.near->touching = touching;
+  talk.near->is_eulerian.assign(s.eulerian + b.first, s.eulerian + b.last);
+  talk.collectives = body == 0 ? 2 : 0;  // failures with bounds, results of the step
+  return talk;
+}
+
+}  // namespace piola::adaptle

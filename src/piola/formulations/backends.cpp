@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// The machines of every formulation, and how one is chosen: see exec/backend_registry.hpp.
+#include "piola/exec/backend_registry.hpp"
+#include "piola/formulations/adaptle/state.hpp"
+#include "piola/formulations/jst_sph/state.hpp"
+#include "piola/formulations/nodal/state.hpp"
+#include "piola/formulations/taylor_sph/state.hpp"
+
+PIOLA_CHOOSE_MACHINE(adaptle)
+PIOLA_CHOOSE_MACHINE(jst_sph)
+PIOLA_CHOOSE_MACHINE(nodal)
+PIOLA_CHOOSE_MACHINE(taylor_sph)

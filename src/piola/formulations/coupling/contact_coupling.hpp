@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/common/mirrored_assembly.hpp"
+#include "piola/formulations/common/output_fields.hpp"
+#include "piola/formulations/coupling/coupled_formulations.hpp"
+#include "piola/formulations/coupling/tie_coupling.hpp"
+#include "piola/mechanics/contact/colour_contact.hpp"
+#include "piola/mechanics/contact/rigid_motion.hpp"
+#include "piola/mechanics/contact/surface_contact.hpp"
+#include "piola/mechanics/resultants.hpp"
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace piola {
+
+/// Surface contact and ties between the bodies of a run, of any formulation, and with rigid shapes. It changes
+/// velocities between steps: half of a step's impulse with the forces before the step, half with those after it. For
+/// kick-drift-kick formulations this is velocity Verlet with the contact force included.
+class ContactCoupling {
+ public:
+  using Formulations = std::vector<std::unique_ptr<Formulation>>;
+  ContactCoupling(Assembly const& whole, std::vector<FormulationGroup> const& parts);
+
+  /// Evaluates the forces of the current state: before the first step and after loading a checkpoint.
+  void look(Formulations const& formulations);
+  void begin(Formulations const& formulations, double time, double dt);   ///< before the step of the parts
+  void finish(Formulations const& formulations, double time, double dt);  ///< after the step of the parts; time [s] at
+                                                                          ///< its end
+
+  /// Returns the step limit of contact [s], given the step limit `step` of the bodies [s].
+  double limit(double step) const;
+  /// As limit(), for a state without active contact.
+  double settled(double step) const;
+  /// Adds energy, work and columns of history.csv.
+  void report(Diagnostics& sum) const;
+  /// Current state of free and rotating rigid shapes.
+  std::vector<RigidState> rigids() const { return motion_.states(system_.rigids()); }
+  double kinetic_energy() const { return motion_.kinetic_energy(); }  ///< of free rigid shapes [J]
+  /// Set once the motion of a free rigid shape is not finite.
+  std::optional<Failure> failure() const;
+  void damp(double factor) { motion_.damp(system_, factor); }  ///< free rigid shapes
+  /// Mean forces of supports and rigid shapes in the last step, in the order of the case: supports, named loads, rigid
+  /// shapes.
+  std::vector<Action> actions() const { return actions_.report(); }
+  /// Mean force of body B on body A, named "A-B"; moment about the origin.
+  std::vector<Action> pairs() const;
+  /// Fields of surfaces: pressure, gap, slip and friction heat; zero for particles without a surface point.
+  static std::vector<FieldInfo> fields();
+  /// Samples a field of fields(): values[id]. Returns false if it is another field.
+  bool sample(std::string_view field, std::span<double> values) const;
+  void save(StateWriter& writer) const;
+  void load(StateReader& reader);
+  /// Number of particles of a part that are read in every step; known before look().
+  std::size_t coupled_particle_count(std::size_t part) const {
+    std::size_t n = 0;
+    for (GroupParticles const& share : shares_) n += share.part == part ? share.local.size() : 0;
+    return n;
+  }
+  std::size_t bytes() const { return system_.bytes() + ties_.bytes() + colours_.bytes(); }
+
+ private:
+  ContactCoupling(Assembly const& whole, MirroredAssembly const& continued, std::vector<FormulationGroup> const& parts);
+
+  /// A direction of a particle that is held by a support, or by a mirror plane, which has no record of its force.
+  struct ConstrainedDirection {
+    std::size_t support;  ///< index of the support, or `plane`
+    std::array<double, 3> direction;
+    double until;  ///< [s]
+  };
+  struct GroupParticles {
+    std::size_t part;
+    std::vector<Index> at;            ///< indices into run_ids_
+    std::vector<std::int64_t> local;  ///< ids in the part
+    std::int64_t lost = 0;            ///< particles without a surface at the last check
+  };
+
+  static constexpr std::size_t plane = static_cast<std::size_t>(-1);
+  /// Image of a point at a mirror plane, by index into System::ids(): x' = sign x + shift of its source.
+  struct Image {
+    Index at, source;
+    std::array<double, 3> sign, shift;
+  };
+
+  void find_particles(MirroredAssembly const& continued);
+  void find_coloured(Assembly const& whole);
+  void find_shares(std::vector<FormulationGroup> const& parts);
+  void place_images();
+  void fold_images();
+  void read_masses(Formulations const& formulations);
+  void read_state(Formulations const& formulations);
+  void drop_lost_surfaces(Formulations const& formulations);
+  void add_velocities(Formulations const& formulations, double time, double half);
+  void give(Formulations const& formulations, double time, double half);
+  void damp_chatter(Formulations const& formulations, double time);
+  void add_to_energy_balance(double half);
+  double contact_time_step() const;
+  void find_held(MirroredAssembly const& continued);
+  void sum_forces();
+
+  int dimension_;
+  std::vector<std::string> names_;  ///< of bodies
+  std::vector<RigidShape> shapes_;
+  std::vector<Support> supports_;
+  contact::SurfaceContactSystem system_;
+  contact::RigidMotion motion_;
+  std::vector<GroupParticles> shares_;
+  /// Ids in the run by index: those of System::ids(), with -1 for images, then the particles of bodies that are only in
+  /// colour contact.
+  std::vector<std::int64_t> run_ids_;
+  std::vector<Image> images_;                            ///< by `at`
+  std::vector<std::vector<ConstrainedDirection>> held_;  ///< by index into run_ids_
+  std::vector<double> mass_;
+  std::vector<Vec<3>> x_, v_;
+  Resultants actions_;
+  TieCoupling ties_;
+  contact::ColourContact colours_;
+  std::vector<Vec<3>> forces_;  ///< of contact and ties [N], by index into run_ids_
+  std::vector<Index> pushed_;   ///< indices with a force, ascending
+  std::vector<contact::SurfaceContactSystem::ForceMoment> pair_impulses_;
+  std::vector<double> loaded_;  ///< from a checkpoint, until the state of the bodies is loaded
+  double work_ = 0, friction_work_ = 0, chatter_loss_ = 0, last_dt_ = 0, closing_ = 0;
+};
+
+}  // namespace piola

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loops of the nodal formulation for one machine; compiled once per instruction set (PIOLA_MACHINE).
+#include "piola/formulations/nodal/step.hpp"
+
+namespace piola::nodal::inline PIOLA_BACKEND {
+namespace {
+
+/// f(Step) with the step of the body's dimension.
+template <class F>
+void with_step(BodyState& body, F const& f) {
+  switch (body.dimension) {
+    case 1: return f(Step<1>(body));
+    case 2: return f(Step<2>(body));
+    default: return f(Step<3>(body));
+  }
+}
+
+void step(BodyState& body, double dt) {
+  with_step(body, [&](auto one_step) { one_step(dt); });
+}
+void accelerate(BodyState& body) {
+  with_step(body, [](auto one_step) { one_step.accelerate(); });
+}
+void observe(BodyState& body) {
+  with_step(body, [](auto one_step) { one_step.observe(); });
+}
+void keep(BodyState& body) {
+  with_step(body, [](auto one_step) { one_step.keep(); });
+}
+void restore(BodyState& body) {
+  with_step(body, [](auto one_step) { one_step.restore(); });
+}
+
+void project(BodyState& body, ProjectionFields const& fields) {
+  with_step(body, [&](auto one_step) { one_step.project(fields); });
+}
+
+double largest_change(BodyState& body) {
+  exec::for_each_block(body.slots, LargestChange{read(body.change), body.partial});
+  double largest = 0;
+  for (Index k = 0; k < exec::block_count(body.slots); ++k) largest = maximum(largest, body.partial[k]);
+  return largest;
+}
+
+}  // namespace
+
+/// The entry by which the host finds this instruction set.
+extern Backend const backend;
+Backend const backend{PIOLA_BACKEND_NAME, lane_count, &step,    &accelerate, &observe,
+                      &largest_change,    &keep,      &restore, &project};
+
+}  // namespace piola::nodal::inline PIOLA_MACHINE

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The passes of the nodal formulation for a GPU. Compiled, not yet run: launching them needs fields in device memory.
+// What this file proves is that the same source makes device code for every dimension and law.
+#include "piola/exec/device_launch.hpp"
+#include "piola/formulations/nodal/boundary_passes.hpp"
+#include "piola/formulations/nodal/mirror_passes.hpp"
+#include "piola/formulations/nodal/projection.hpp"
+#include "piola/formulations/nodal/stress_points.hpp"
+
+namespace piola::nodal::inline PIOLA_BACKEND {
+namespace {
+
+template <class Sweep>
+struct WithBlockScratch {
+  Sweep sweep;
+  exec::Scratch scratch;
+  __host__ __device__ void operator()(Range b, Index) const { sweep(b, scratch); }
+};
+
+template <class Sweep>
+void launch_sweep(Range r, void const* passes, exec::Scratch const& scratch) {
+  exec::for_each(r, exec::WithScratch<Sweep>{exec::as<Sweep>(passes), scratch});
+}
+
+template <int D, class... Law>
+void launch_laws(Range r, void const* passes, exec::Scratch const& scratch, LawList<Law...>) {
+  (launch_sweep<UpdateStress<D, Law, false>>(r, passes, scratch), ...);
+}
+
+template <class Pass>
+void launch_each(Range r, void const* passes) {
+  exec::for_each(r, exec::as<Pass>(passes));
+}
+
+/// Of lattices, a thread per block.
+template <int D>
+void launch_lattice(Range r, void const* passes, exec::Scratch const& scratch) {
+  exec::for_each_block(
+      r, WithBlockScratch<SumLatticeMotion<D>>{*static_cast<SumLatticeMotion<D> const*>(passes), scratch});
+  exec::for_each_block(r, *static_cast<SumLatticeForces<D> const*>(passes));
+  launch_each<MultiplyByCorrections<D>>(r, passes);
+}
+
+template <int D>
+void launch_all(Range r, void const* passes, exec::Scratch const& scratch) {
+  launch_sweep<SumMotion<D>>(r, passes, scratch);
+  launch_laws<D>(r, passes, scratch, Laws{});
+  launch_each<SumForces<D>>(r, passes);
+  launch_lattice<D>(r, passes, scratch);
+  launch_sweep<ProjectQuadratic<D>>(r, passes, scratch);
+  launch_each<KickAndDrift<D>>(r, passes);
+  launch_each<Kick<D>>(r, passes);
+  launch_each<CopyMotion<D>>(r, passes);
+  launch_each<CopyLeast>(r, passes);
+  launch_each<CopyValues>(r, passes);
+  launch_each<TurnLoads<D>>(r, passes);
+  launch_each<DriveDirections<D>>(r, passes);
+  launch_each<ArriveAlongDirections<D>>(r, passes);
+  launch_each<AddLoads<D>>(r, passes);
+  launch_each<KeepEven<D>>(r, passes);
+  launch_each<StayOnPlanes<D>>(r, passes);
+}
+
+}  // namespace
+
+void launch(int dimension, Range r, void const* passes, exec::Scratch const& scratch) {
+  if (dimension == 1) launch_all<1>(r, passes, scratch);
+  if (dimension == 2) launch_all<2>(r, passes, scratch);
+  if (dimension == 3) launch_all<3>(r, passes, scratch);
+}
+
+}  // namespace piola::nodal::inline PIOLA_MACHINE

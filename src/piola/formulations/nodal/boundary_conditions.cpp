@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/nodal/boundary_conditions.hpp"
+#include "piola/domain/communicator.hpp"
+#include <algorithm>
+
+namespace piola::nodal {
+namespace {
+
+/// Positions for supports that hold the surface; empty if there are none.
+std::vector<std::array<double, 3>> positions(Assembly const& assembly, Boundary::BodyInput const& of_body) {
+  if (of_body.held.empty()) return {};
+  SlotOrder const& order = of_body.order;
+  std::vector<std::array<double, 3>> X(static_cast<std::size_t>(order.slots()));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(order.particles); ++i)
+    X[i] = assembly.particles.X[static_cast<std::size_t>(order.id[i])];
+  return X;
+}
+
+}  // namespace
+
+Boundary::Boundary(Assembly const& assembly, std::size_t body, BodyInput const& of_body)
+    : body_(assembly.particles.bodies[body]),
+      D_(assembly.particles.dimension),
+      driven_(D_, assembly.supports, assembly.loads, false),
+      surface_(D_, assembly.supports, of_body.held, of_body.mass, positions(assembly, of_body)),
+      own_(of_body.own) {
+  std::vector<Index> slot_of(static_cast<std::size_t>(body_.last - body_.first));
+  for (Index i = 0; i < of_body.order.particles; ++i)
+    slot_of[static_cast<std::size_t>(of_body.order.id[static_cast<std::size_t>(i)] - body_.first)] = i;
+  driven_.add_supports(
+      assembly.supports, [&](std::int64_t id) { return id >= body_.first && id < body_.last; },
+      [&](std::int64_t id) {
+        Index const slot = slot_of[static_cast<std::size_t>(id - body_.first)];
+        auto const& X = assembly.particles.X[static_cast<std::size_t>(id)];
+        return BodyBoundary::PrescribedParticle{slot, X, of_body.mass[static_cast<std::size_t>(slot)], X};
+      });
+  take_loads(assembly, of_body, slot_of);
+}
+
+/// Supports that hold the surface are solved for on every rank, including all held particles near it.
+void Boundary::share(Range own) {
+  if (surface_.empty())
+    driven_.keep(own);
+  else
+    driven_.share(own);
+  surface_.share(own);
+}
+
+/// Acceleration per unit of the load's value, per slot; zero where it does not act.
+LazyZeroArray<double> Boundary::factors(Load const& load, std::size_t number, BodyInput const& of_body,
+                                        std::vector<Index> const& slot_of) const {
+  LazyZeroArray<double> factor(of_body.mass.size());
+  Range const own = of_body.slots();
+  if (load.on_face()) {
+    std::size_t const last = std::min(of_body.parts[number].size(), static_cast<std::size_t>(own.last));
+    for (auto i = static_cast<std::size_t>(own.first); i < last; ++i)
+      factor[i] = of_body.parts[number][i].area / of_body.mass[i];
+    return factor;
+  }
+  for (std::size_t k = 0; k < load.particles.size(); ++k) {
+    auto const id = load.particles[k];
+    if (id >= body_.first && id < body_.last)
+      factor[static_cast<std::size_t>(slot_of[static_cast<std::size_t>(id - body_.first)])] = load.factor[k];
+  }
+  return factor;
+}
+
+void Boundary::take_loads(Assembly const& assembly, BodyInput const& of_body, std::vector<Index> const& slot_of) {
+  for (std::size_t number = 0; number < assembly.loads.size(); ++number) {
+    Load const& load = assembly.loads[number];
+    auto const factor = factors(load, number, of_body, slot_of);
+    for (auto slot = static_cast<std::size_t>(of_body.slots().first);
+         slot < static_cast<std::size_t>(of_body.slots().last); ++slot) {
+      if (factor[slot] == 0) continue;
+      driven_.add_load(number, {static_cast<Index>(slot), of_body.mass[slot], factor[slot],
+                                assembly.particles.X[static_cast<std::size_t>(of_body.order.id[slot])],
+                                load.pressure ? std::optional(of_body.parts[number][slot].normal) : std::nullopt});
+    }
+  }
+  if (own_) share(*own_);
+  double follows = driven_.follows() ? 1 : 0;  // ranks turn loads together
+  if (own_) comm::allreduce_max(follows);
+  follows_ = follows > 0;
+  for (auto const& p : driven_.loaded()) {
+    auto const own = of_body.centroid.begin() + std::ptrdiff_t{p.slot} * D_;
+    centroid_.insert(centroid_.end(), own, own + D_);
+  }
+}
+
+void Boundary::attach(BodyState& state) {
+  begin_step(state, 0, 0);
+  driven_.start(state.v);
+  surface_.set_velocity(state.v);
+}
+
+void Boundary::begin_step(BodyState& state, double time, double dt) {
+  bool const changed = driven_.begin_step(state.x, time, dt);
+  surface_.begin_step(state.x, driven_.held(), changed, time, dt);
+  state.surface = surface_.empty() ? nullptr : &surface_;
+  state.kick_surface = [](SurfaceConstraint& surface, BodyState& body, bool first, double step) {
+    if (first)
+      surface.kick_first(body.v, body.a, step);
+    else
+      surface.kick_last(body.v);
+  };
+  state.held = driven_.held().data();
+  state.held_count = static_cast<Index>(driven_.held().size());
+  state.loaded = driven_.loaded().data();
+  state.loaded_count = static_cast<Index>(driven_.loaded().size());
+  state.loaded_centroid = centroid_.data();
+  state.follows = follows_;
+}
+
+void Boundary::end_step(BodyState& state) {
+  driven_.end_step(state.x, work_);
+  surface_.end_step(state.x, work_);
+  driven_.remove_ended(state.a);
+}
+
+void Boundary::hand_over(Resultants& actions) const {
+  driven_.hand_over(actions);
+  surface_.hand_over(actions);
+}
+
+void Boundary::damp(BodyState& state, double factor) const {
+  driven_.damp(state.v, state.slots.last, factor);
+  surface_.set_velocity(state.v);
+}
+
+exec::ReproducibleSum Boundary::square_of_held(BodyState const& state) const {
+  exec::ReproducibleSum sum;
+  for (Index n = 0; n < state.held_count; ++n) {
+    PrescribedDirection const& h = state.held[n];
+    if (!is_local(own_, h.slot)) continue;
+    double along = 0;
+    for (int c = 0; c < D_; ++c) along += value_at(state.a, h.slot, c) * h.direction[c];
+    sum += h.mass * along * along;
+  }
+  return sum;
+}
+
+}  // namespace piola::nodal

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/assembly.hpp"
+#include "piola/formulations/nodal/set_up.hpp"
+#include "piola/formulations/nodal/state.hpp"
+#include "piola/mechanics/body_boundary_conditions.hpp"
+#include "piola/mechanics/surface_constraint.hpp"
+#include "piola/particles/ordering.hpp"
+#include <optional>
+#include <vector>
+
+namespace piola::nodal {
+
+/// Supports and loads of one body: a BodyBoundary with the masses of particles and their parts of faces, and the
+/// surface places that supports hold. Theory: docs/theory/boundaries.md, docs/theory/nodal.md.
+class Boundary {
+ public:
+  /// Data of a body: masses per slot [kg], for each load on a face its part per slot, centroids of cells, and the
+  /// surface places that supports hold.
+  struct BodyInput {
+    SlotOrder const& order;
+    LazyZeroArray<double> const& mass;
+    std::vector<LazyZeroArray<FacePart>> const& parts;
+    LazyZeroArray<double> const& centroid;
+    std::vector<ConstrainedFacet> const& held;
+    std::optional<Range> own = std::nullopt;  ///< local slots; empty: all
+    Range slots() const { return own.value_or(Range{0, order.slots()}); }
+  };
+  /// Collective if the body is distributed, like all members that change or measure the state.
+  Boundary(Assembly const& assembly, std::size_t body, BodyInput const& of_body);
+
+  /// Sets the velocities of supported particles, and the loads, of t = 0.
+  void attach(BodyState& state);
+  /// Before a step from `time` to time + dt: evaluates held directions, their speeds, and the loads at both ends.
+  void begin_step(BodyState& state, double time, double dt);
+  /// After the step: adds work and impulses, and removes loads that end now from the acceleration of the next step.
+  void end_step(BodyState& state);
+  /// The next time after `time` at which a support or a load ends; infinity if there is none.
+  double next_end_time(double time) const { return driven_.next_end_time(time); }
+
+  /// Adds the impulses of supports and loads since reset_impulses().
+  void hand_over(Resultants& actions) const;
+  void reset_impulses() {
+    driven_.reset_impulses();
+    surface_.reset_impulses();
+  }
+  /// Multiplies the velocities that no support prescribes.
+  void damp(BodyState& state, double factor) const;
+  /// Whether a particle contributes to a surface place that supports hold.
+  bool moves_surface(Index slot) const { return surface_.reaches(slot); }
+  /// After velocities were changed by contact: supports restore the velocity of the surface that they hold.
+  void project_out_reactions(BodyState& state) { surface_.keep_velocity(state.x, state.v, work_); }
+  /// sum m a^2 of the part of accelerations that supports remove [N m/s2]: by surface places over all ranks, and along
+  /// directions of local particles.
+  double square_of_surface(BodyState const& state) const { return surface_.square_of_held(state.a); }
+  exec::ReproducibleSum square_of_held(BodyState const& state) const;
+  std::size_t bytes() const { return surface_.bytes(); }
+
+  DeferredGlobalSum& external_work() { return work_; }  ///< of loads and driven supports since the start [J]
+  DeferredGlobalSum const& external_work() const { return work_; }
+
+ private:
+  void take_loads(Assembly const& assembly, BodyInput const& of_body, std::vector<Index> const& slot_of);
+  void share(Range own);
+  LazyZeroArray<double> factors(Load const& load, std::size_t number, BodyInput const& of_body,
+                                std::vector<Index> const& slot_of) const;
+
+  Body body_;
+  int D_;
+  BodyBoundary driven_;
+  SurfaceConstraint surface_;
+  std::vector<double> centroid_;  ///< of the cells of loaded particles, relative to the particles [m]
+  DeferredGlobalSum work_;
+  std::optional<Range> own_;  ///< empty: all slots
+  bool follows_ = false;      ///< whether some load is a follower load, on any rank
+};
+
+}  // namespace piola::nodal

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/nodal/load_integrals.hpp"
+#include "piola/domain/sum_over_slots.hpp"
+#include "piola/formulations/nodal/loaded_face.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace piola::nodal {
+namespace {
+
+using Point = std::array<double, 3>;
+
+/// Areas times normals, added up over patches as they are.
+template <int D>
+LazyZeroArray<FacePart> vector_parts(LoadedFace<D> const& face, IntegrationConstraint<D> const& divergence,
+                                     Point const& area) {
+  LazyZeroArray<Point> sum(divergence.particles());
+  for (int axis = 0; axis < D; ++axis) {
+    auto const share = divergence.shares([&](SurfacePatch const& p) {
+      double const whole = p.axis == axis && face.has(p) ? area[static_cast<std::size_t>(axis)] : 0;
+      return p.upper ? whole : -whole;
+    });
+    divergence.for_each_local([&](std::size_t b) { sum[b][static_cast<std::size_t>(axis)] = share[b]; });
+  }
+  LazyZeroArray<FacePart> parts(sum.size());
+  divergence.for_each_local([&](std::size_t b) {
+    double const size = std::sqrt(sum[b][0] * sum[b][0] + sum[b][1] * sum[b][1] + sum[b][2] * sum[b][2]);
+    if (size > 0) parts[b] = {size, {sum[b][0] / size, sum[b][1] / size, sum[b][2] / size}};
+  });
+  return parts;
+}
+
+/// Areas of the exact surface: projections of the patches on its normals.
+template <int D>
+LazyZeroArray<FacePart> scalar_parts(LoadedFace<D> const& face, IntegrationConstraint<D> const& divergence,
+                                     Point const& area, std::optional<Point> const& normal) {
+  auto const share =
+      divergence.shares([&](SurfacePatch const& p) { return face.cosine(p) * area[static_cast<std::size_t>(p.axis)]; });
+  LazyZeroArray<FacePart> parts(share.size());
+  divergence.for_each_local([&](std::size_t b) { parts[b] = {share[b], normal.value_or(Point{})}; });
+  return parts;
+}
+
+/// Sum of the areas of a face, and of areas times normals [m^(D-1)].
+struct WholeArea {
+  double size = 0;
+  Point vector{};
+};
+
+WholeArea exact_area(SetUp const& from, Load const& load) {
+  WholeArea sum;
+  for (std::size_t k = 0; k < load.particles.size(); ++k) {
+    auto const id = static_cast<std::size_t>(load.particles[k]);
+    if (load.particles[k] < from.body.first || load.particles[k] >= from.body.last) continue;
+    double const area = load.factor[k] * from.rho0[part_of(from.set, id)] * from.set.volume[id];
+    sum.size += area;
+    for (std::size_t c = 0; c < 3; ++c) sum.vector[c] += area * load.normal_of(k)[c];
+  }
+  return sum;
+}
+
+/// Area in the body itself, without its images. Collective on a distributed body.
+template <int D>
+WholeArea area_of(SetUp const& from, LocalFits<D> const& fits, LazyZeroArray<FacePart> const& parts) {
+  Range const own{fits.own().first, std::min(fits.own().last, from.order.particles)};
+  auto const sums = sums_over_slots<4>(fits.shared().has_value(), own, [&](Index slot, double* sum) {
+    FacePart const& part = parts[static_cast<std::size_t>(slot)];
+    sum[0] = part.area / (from.images != nullptr ? from.images->multiplicity(slot) : 1);
+    for (int c = 0; c < 3; ++c) sum[1 + c] = sum[0] * part.normal[static_cast<std::size_t>(c)];
+  });
+  return {sums.value(0), {sums.value(1), sums.value(2), sums.value(3)}};
+}
+
+double length_of(Point const& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+/// Compares the area that a load acts on with the exact one, and scales its `parts`, if they are given, to that.
+void check_area(SetUp const& from, Load const& load, WholeArea const& found, LazyZeroArray<FacePart>* parts,
+                std::vector<SetUpCheck>& checks) {
+  constexpr double told = 1e-3, rounding = 1e-9;
+  WholeArea const exact = exact_area(from, load);
+  if (!(exact.size > 0)) return;  // on another body
+  double error = found.size / exact.size - 1;
+  if (parts == nullptr) {
+    Point const& v = found.vector;
+    error = length_of({v[0] - exact.vector[0], v[1] - exact.vector[1], v[2] - exact.vector[2]}) / exact.size;
+  } else if (std::abs(error) > rounding && found.size > 0) {
+    for (FacePart& part : *parts) part.area *= exact.size / found.size;
+  }
+  std::string warning;
+  std::string const measured = fmt::format("load '{}': sides of cells make up {:.6g} of an area of {:.6g} m^{}",
+                                           load.name, found.size, exact.size, from.set.dimension - 1);
+  if (std::abs(error) > told && parts != nullptr)
+    warning = fmt::format(
+        "{}; the load is scaled by {:.6g}, so that its total is exact, and approximate within a spacing of the edge - "
+        "use smaller spacings if what happens there counts",
+        measured, exact.size / found.size);
+  else if (std::abs(error) > told)
+    warning =
+        fmt::format("{}, and their resultant is wrong by {:.2g} of the area - use smaller spacings", measured, error);
+  checks.push_back({load.name + ".area_error", error, warning});
+}
+
+}  // namespace
+
+template <int D>
+std::vector<LazyZeroArray<FacePart>> load_integrals(SetUp const& from, LocalFits<D> const& fits,
+                                                    IntegrationConstraint<D> const& divergence, FacePartsOf const& of) {
+  std::vector<LazyZeroArray<FacePart>> parts;
+  Point area{1, 1, 1};  // of a patch of size one in spacings, by its axis
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t c = 0; c < static_cast<std::size_t>(D); ++c) area[axis] *= c == axis ? 1 : of.h[c];
+  for (auto const& load : from.loads) {
+    parts.emplace_back();
+    if (!load.on_face()) continue;
+    LoadedFace<D> const face(from, fits, divergence.patches(), load);
+    bool const by_area = load.normal || !load.pressure;
+    parts.back() =
+        by_area ? scalar_parts<D>(face, divergence, area, load.normal) : vector_parts<D>(face, divergence, area);
+    check_area(from, load, area_of(from, fits, parts.back()), by_area ? &parts.back() : nullptr, of.checks);
+  }
+  return parts;
+}
+
+template std::vector<LazyZeroArray<FacePart>> load_integrals<1>(SetUp const&, LocalFits<1> const&,
+                                                                IntegrationConstraint<1> const&, FacePartsOf const&);
+template std::vector<LazyZeroArray<FacePart>> load_integrals<2>(SetUp const&, LocalFits<2> const&,
+                                                                IntegrationConstraint<2> const&, FacePartsOf const&);
+template std::vector<LazyZeroArray<FacePart>> load_integrals<3>(SetUp const&, LocalFits<3> const&,
+                                                                IntegrationConstraint<3> const&, FacePartsOf const&);
+
+}  // namespace piola::nodal

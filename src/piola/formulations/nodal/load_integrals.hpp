@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/nodal/integration_constraint.hpp"
+#include "piola/formulations/nodal/set_up.hpp"
+
+namespace piola::nodal {
+
+struct FacePartsOf {
+  std::array<double, 3> const& h;   ///< spacings [m]
+  std::vector<SetUpCheck>& checks;  ///< receives the computed area of each load, with the exact one
+};
+
+/// Weights of particles on loaded faces, exact for quadratic fields. Flat faces have their own normal. A pressure on a
+/// curved face acts along the vectors of the sampled body's surface, so that it has no resultant on a closed one. All
+/// other loads act on the exact area: the areas of a load are scaled if cell sides beside an oblique edge are assigned
+/// to the wrong face. Collective on a distributed body.
+template <int D>
+std::vector<LazyZeroArray<FacePart>> load_integrals(SetUp const& from, LocalFits<D> const& fits,
+                                                    IntegrationConstraint<D> const& divergence, FacePartsOf const& of);
+
+extern template std::vector<LazyZeroArray<FacePart>> load_integrals<1>(SetUp const&, LocalFits<1> const&,
+                                                                       IntegrationConstraint<1> const&,
+                                                                       FacePartsOf const&);
+extern template std::vector<LazyZeroArray<FacePart>> load_integrals<2>(SetUp const&, LocalFits<2> const&,
+                                                                       IntegrationConstraint<2> const&,
+                                                                       FacePartsOf const&);
+extern template std::vector<LazyZeroArray<FacePart>> load_integrals<3>(SetUp const&, LocalFits<3> const&,
+                                                                       IntegrationConstraint<3> const&,
+                                                                       FacePartsOf const&);
+
+}  // namespace piola::nodal

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/domain/slot_collectives.hpp"
+#include "piola/exec/host_loops.hpp"
+#include "piola/exec/lazy_zero_array.hpp"
+#include "piola/formulations/nodal/index_set.hpp"
+#include "piola/formulations/nodal/lattice_layout.hpp"
+#include "piola/formulations/nodal/quadratic.hpp"
+#include "piola/math/lanes.hpp"
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+/// Weighted least-squares quadratics through the neighbours of each particle. All lengths in spacings.
+/// Theory: docs/theory/nodal.md, section 3.
+namespace piola::nodal {
+
+using Points = std::vector<std::array<double, 3>>;
+
+/// Neighbours of every particle, or of some, both directions of each pair, in increasing order.
+struct Pairs {
+  std::vector<std::int64_t> begin;  ///< per particle, one more at the end; particles not chosen have an empty range
+  std::vector<Index> neighbour;
+  std::vector<double> weight;  ///< equal in both directions
+
+  std::size_t first(std::size_t a) const { return static_cast<std::size_t>(begin[a]); }
+  std::size_t end(std::size_t a) const { return static_cast<std::size_t>(begin[a + 1]); }
+  std::size_t at(std::size_t k) const { return static_cast<std::size_t>(neighbour[k]); }
+  /// Largest distance of neighbours in the order of particles.
+  Index farthest() const;
+};
+
+/// Per particle of a lattice: the first one with equal distances from all faces, where distances of `beyond` spacings
+/// or more count as equal.
+std::vector<Index> representatives_in_lattice(LatticeShape const& shape, int beyond);
+
+/// Pairs of the particles `rows` of a lattice nearer than `reach` (exclusive), without weights and without a search.
+Pairs lattice_pairs(LatticeShape const& shape, double reach, IndexSet const& rows);
+
+/// For a distributed lattice: the local particles, their neighbours, and the first particle of each kind.
+IndexSet lattice_rows(LatticeShape const& shape, double reach, Range own, std::vector<std::size_t> const& first);
+
+/// Deterministic parallel scatter. Calls f(a, mine) for the particles of `rows` in ascending order; f may add to
+/// entries b with |b - a| <= reach, and only where mine(b) is true. Each thread owns a part of `range` and processes
+/// every a that can reach it, so each entry gets its summands in the same order for any number of threads and ranks.
+template <class F>
+void scatter_in_order(Range range, IndexSet const& rows, Index reach, F const& f) {
+  Index const n = range.last - range.first, parts = exec_host::team_size(n);
+  exec_host::parallel_for_chunks(parts, n, [&](Index part) {
+    auto const border = [&](Index k) {
+      return range.first + static_cast<Index>(static_cast<std::int64_t>(n) * k / parts);
+    };
+    std::int64_t const first = border(part), end = border(part + 1);
+    auto const mine = [&](std::size_t b) {
+      return b >= static_cast<std::size_t>(first) && b < static_cast<std::size_t>(end);
+    };
+    for (Index k = 0; k < rows.size(); ++k)
+      if (auto const a = static_cast<std::int64_t>(rows[k]); a >= first - reach && a < end + reach)
+        f(static_cast<std::size_t>(a), mine);
+  });
+}
+
+/// Pairs of the particles `rows` nearer than the larger of their two support radii.
+Pairs find_pairs(Points const& X, std::span<double const> reach, IndexSet const& rows);
+
+/// The particles of a range, their neighbours, and the particles marked already.
+IndexSet with_neighbours(Pairs const& pairs, Range range, std::vector<bool> marked);
+/// Ghosts: neighbours of local particles that are not local.
+std::vector<Index> ghost_neighbours(Pairs const& pairs, Range own);
+
+/// The fits of a cloud:  e_ab = s_ab A_a^-1 p(r_ab),  A_a = sum_b s_ab p p^T,  p without the constant,
+/// s = (1 - (r/R)^2)^2 / r^3 with R = 2.4, or more where neighbours do not determine a quadratic well.
+template <int D>
+class LocalFits {
+ public:
+  static constexpr int terms = Quadratic<D>::terms;
+  using Monomials = std::array<double, static_cast<std::size_t>(terms)>;
+
+  /// lattice: the lattice that the points fill, if any; each distinct neighbourhood is then fitted once. shared: the
+  /// points are distributed, and each rank fits its local points and their neighbours; then collective.
+  explicit LocalFits(Points const& X, std::optional<LatticeShape> const& lattice = std::nullopt,
+                     std::optional<DistributedSlots> const& shared = std::nullopt);
+
+  /// Local points of this rank, or all.
+  Range own() const { return shared_ ? shared_->own() : Range{0, static_cast<Index>(X_.size())}; }
+  std::optional<DistributedSlots> const& shared() const { return shared_; }
+  /// Points with fits and pairs on this rank: local points and their neighbours.
+  IndexSet const& rows() const { return rows_; }
+  bool has(std::size_t a) const { return pairs_.end(a) > pairs_.first(a); }
+
+  /// Whether all support radii are `usual_reach`, and the neighbours on a lattice are those of its loops.
+  bool usual() const { return usual_; }
+  /// A particle whose neighbours determine no quadratic at any support radius; -1: none.
+  Index unsolvable() const { return hopeless_; }
+  Pairs const& pairs() const { return pairs_; }
+  /// Moves the pairs out. No other member may be called afterwards.
+  Pairs take_pairs() { return std::move(pairs_); }
+  Points const& X() const { return X_; }
+  /// (A^-1)_kl of a particle.
+  double inverse(std::size_t a, int k, int l) const {
+    return inverse_[(kind_.empty() ? a : static_cast<std::size_t>(kind_[a])) * static_cast<std::size_t>(terms * terms) +
+                    static_cast<std::size_t>(k * terms + l)];
+  }
+  /// The first particle of a lattice with an identical neighbourhood in the same order; a itself in clouds.
+  std::size_t alike(std::size_t a) const { return alike_.empty() ? a : static_cast<std::size_t>(alike_[a]); }
+  /// p of a pair, without the constant.
+  Monomials monomials_of(std::size_t a, std::size_t b) const;
+  /// e_ab: the weight of the value at b in the first and second derivatives at a.
+  Monomials derivatives(std::size_t a, std::size_t pair) const;
+  /// Weight s of a particle with itself in fits that include its own value: that of a neighbour at distance one.
+  double own_weight(std::size_t a) const;
+
+ private:
+  void fit_lattice(LatticeShape const& shape);
+  void fit_cloud();
+  void find_cloud();
+  /// Enlarges the support radii of failed fits. Returns whether all fits are good.
+  bool lengthen(std::vector<char> const& fits);
+  /// Computes the inverse of particle a and stores it at `at`.
+  bool fit(std::size_t a, std::size_t at);
+
+  Points const& X_;
+  std::optional<DistributedSlots> shared_;
+  IndexSet rows_;
+  std::vector<double> reach_;
+  Pairs pairs_;
+  LazyZeroArray<double> inverse_;
+  std::vector<Index> alike_;
+  std::vector<std::int32_t> kind_;  ///< of a lattice: index of the inverse of a particle
+  Index hopeless_ = -1;
+  bool usual_ = true;
+};
+
+extern template class LocalFits<1>;
+extern template class LocalFits<2>;
+extern template class LocalFits<3>;
+
+}  // namespace piola::nodal

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/nodal/fields.hpp"
+
+namespace piola::nodal {
+
+/// Storage of the data that sweeps read from neighbours: X, x, mu and the stress. Lists: one record per particle and
+/// sweep. Lattices: component after component, padded with zeros.
+class NeighbourRecords {
+ public:
+  NeighbourRecords() = default;
+  NeighbourRecords(NeighbourRecords const&) = delete;
+  NeighbourRecords& operator=(NeighbourRecords const&) = delete;
+
+  /// Call complete_record() afterwards for all records that are read.
+  void place_records(Fields& fields, int D, Index slots);
+  void complete_record(int D, Index slot);
+  /// guard: slots that loops over a lattice may read before the first and after the last one.
+  static void place_lattice(Fields& fields, Index slots, Index guard);
+  std::size_t bytes() const { return first_.bytes() + second_.bytes(); }
+
+ private:
+  Memory first_, second_;
+  FieldVersion first_version_, second_version_;
+};
+
+}  // namespace piola::nodal

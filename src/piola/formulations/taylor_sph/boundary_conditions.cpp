@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/taylor_sph/boundary_conditions.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/exec/reproducible_sum.hpp"
+#include "piola/mechanics/prescribed.hpp"
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace piola::taylor_sph {
+namespace {
+
+using Point = std::array<double, 3>;
+using Stress = std::array<double, 6>;  // SymMat<3>: XX YY ZZ XY YZ XZ
+
+/// Facets whose normals differ by more are two sides with an edge between them; a polygon's sides at 45 degrees are
+/// one.
+constexpr double same_side = 0.57;  // cosine of 55 degrees
+
+double length(Point const& a) { return std::sqrt(dot(a, a)); }
+
+/// Position of the component (i, j) in a symmetric tensor of D dimensions.
+int component(int i, int j, int D) {
+  if (i == j) return i;
+  return D == 2 ? 2 : i + j == 1 ? 3 : i + j == 3 ? 4 : 5;
+}
+
+Point traction_of(Stress const& s, Point const& n, int D) {
+  Point t{};
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j)
+      t[static_cast<std::size_t>(i)] +=
+          s[static_cast<std::size_t>(component(i, j, D))] * n[static_cast<std::size_t>(j)];
+  return t;
+}
+
+/// sym(d (x) n) in the orthonormal basis of stresses; e : sigma = d.sigma.n.
+std::array<double, 6> dyad(Point const& d, Point const& n, int D) {
+  std::array<double, 6> e{};
+  for (int i = 0; i < D; ++i)
+    for (int j = i; j < D; ++j) {
+      auto const a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+      double const both = i == j ? d[a] * n[a] : (d[a] * n[b] + d[b] * n[a]) / std::sqrt(2.0);
+      e[static_cast<std::size_t>(component(i, j, D))] = both;
+    }
+  return e;
+}
+
+double mandel_product(double const* row, Stress const& s, int D) {
+  double sum = 0;
+  for (int c = 0; c < D * (D + 1) / 2; ++c)
+    sum += row[c] * s[static_cast<std::size_t>(c)] * (c < D ? 1 : std::sqrt(2.0));
+  return sum;
+}
+
+/// Directions across those of `held` [orthonormal], as many as D leaves.
+std::vector<Point> free_directions(std::vector<Point> held, int D) {
+  static constexpr Point axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  std::vector<Point> free;
+  for (int c = 0; c < D && held.size() < static_cast<std::size_t>(D); ++c) {
+    Point d = axes[c];
+    // An axis that is almost in the span of the others would give a direction of round-off.
+    Point rest = d;
+    for (auto const& h : held)
+      for (std::size_t k = 0; k < 3; ++k) rest[k] -= dot(d, h) * h[k];
+    if (length(rest) < 0.3 || !make_orthogonal(d, held)) continue;
+    held.push_back(d);
+    free.push_back(d);
+  }
+  return free;
+}
+
+}  // namespace
+
+Boundary::Boundary(Assembly const& assembly, std::size_t body)
+    : D_(assembly.particles.dimension), first_(assembly.particles.bodies[body].first) {
+  auto const& set = assembly.particles;
+  Body const& own = set.bodies[body];
+  auto const n = static_cast<std::size_t>(own.last - own.first);
+  X_.assign(set.X.begin() + own.first, set.X.begin() + own.last);
+  held_.resize(n);
+  loaded_.resize(n);
+  tip_.resize(n);
+  auto const of_body = [&](std::int64_t id) { return id >= own.first && id < own.last; };
+  for (auto const& crack : set.cracks)
+    for (std::size_t k = 0; k < n && crack.body == static_cast<int>(body); ++k) {
+      auto const at = [&](Point const& end) { return length({X_[k][0] - end[0], X_[k][1] - end[1], 0}); };
+      double const reach = 1e-6 * std::min(own.spacing[0], own.spacing[1]);
+      tip_[k] = tip_[k] || (crack.tip_at_from && at(crack.from) < reach) || (crack.tip_at_to && at(crack.to) < reach);
+    }
+  for (auto const& support : assembly.supports) {
+    for (auto const id : support.particles)
+      if (of_body(id))
+        for (auto const& d : directions_of(support, D_))
+          held_[static_cast<std::size_t>(id - first_)].push_back({supports_.size(), d});
+    supports_.push_back(support);
+    supports_.back().particles.clear();
+  }
+  for (std::size_t number = 0; number < assembly.loads.size(); ++number) {
+    Load const& load = assembly.loads[number];
+    if (!load.on_face()) {
+      Load mine = load;
+      mine.particles.clear();
+      mine.factor.clear();
+      for (std::size_t k = 0; k < load.particles.size(); ++k) {
+        if (!of_body(load.particles[k])) continue;
+        mine.particles.push_back(load.particles[k] - first_);
+        mine.factor.push_back(load.factor[k]);
+      }
+      if (mine.particles.empty()) continue;
+      accelerations_.push_back(mine);
+      acceleration_number_.push_back(number);
+      continue;
+    }
+    for (std::size_t k = 0; k < load.particles.size(); ++k)
+      if (of_body(load.particles[k]))
+        loaded_[static_cast<std::size_t>(load.particles[k] - first_)].push_back({tractions_.size(), load.normal_of(k)});
+    tractions_.push_back(load);
+    traction_number_.push_back(number);
+    tractions_.back().particles.clear();
+  }
+}
+
+Point Boundary::facet_area(Index facet, Points const& x) const {
+  auto const f = static_cast<std::size_t>(facet);
+  if (D_ == 1) return {surface_.outward[f], 0, 0};
+  auto const corner = [&](std::size_t k) {
+    return x[static_cast<std::size_t>(surface_.corner[f * static_cast<std::size_t>(D_) + k])];
+  };
+  auto const edge = [&](std::size_t k) {
+    Point const a = corner(0), b = corner(k);
+    return Point{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  };
+  Point const t = edge(1);
+  if (D_ == 2) return {t[1], -t[0], 0};
+  Point const s = edge(2);
+  return {0.5 * (t[1] * s[2] - t[2] * s[1]), 0.5 * (t[2] * s[0] - t[0] * s[2]), 0.5 * (t[0] * s[1] - t[1] * s[0])};
+}
+
+void Boundary::add_to_side(Index particle, Index facet, Point const& area) {
+  auto& sides = sides_[static_cast<std::size_t>(particle)];
+  double const size = length(area);
+  Side* best = nullptr;
+  double closest = -2;
+  for (auto& side : sides) {
+    double const cosine = dot(side.area, area) / (length(side.area) * size);
+    if (cosine > closest) best = &side;
+    closest = std::max(closest, cosine);
+  }
+  // A point of a surface in D dimensions has at most D independent normals.
+  bool const full = sides.size() == static_cast<std::size_t>(D_);
+  if (best == nullptr || (closest < same_side && !full)) {
+    sides.push_back({});
+    best = &sides.back();
+  }
+  best->facets.push_back(facet);
+  for (std::size_t c = 0; c < 3; ++c) best->area[c] += area[c];
+}
+
+void Boundary::sort_facets(Surface const& surface, Points const& x) {
+  surface_ = surface;
+  sides_.assign(X_.size(), {});
+  for (Index f = 0; f < surface_.count(); ++f)
+    for (int k = 0; k < D_; ++k) {
+      Index const particle = surface_.corner[static_cast<std::size_t>(f) * D_ + k];
+      if (!tip_[static_cast<std::size_t>(particle)]) add_to_side(particle, f, facet_area(f, x));
+    }
+}
+
+void Boundary::turn(Points const& x) {
+  for (Index const particle : particles_)
+    for (auto& side : sides_[static_cast<std::size_t>(particle)]) {
+      side.area = {};
+      for (Index const f : side.facets) {
+        Point const a = facet_area(f, x);
+        for (std::size_t c = 0; c < 3; ++c) side.area[c] += a[c] / D_;
+      }
+      double const size = length(side.area);
+      for (std::size_t c = 0; c < 3; ++c) side.normal[c] = side.area[c] / size;
+    }
+}
+
+void Boundary::attach_tractions() {
+  for (std::size_t k = 0; k < loaded_.size(); ++k)
+    for (auto const& traction : loaded_[k]) {
+      Side* best = nullptr;
+      double closest = 0.5;
+      for (auto& side : sides_[k])
+        if (dot(side.reference_normal, traction.normal) > closest) {
+          closest = dot(side.reference_normal, traction.normal);
+          best = &side;
+        }
+      if (best == nullptr)
+        throw InputError(fmt::format(
+            "load: the particle at ({:.4g}, {:.4g}, {:.4g}) m carries a traction but is not on the surface - "
+            "load particles of a face, and give the box placement = \"on_boundary\"",
+            X_[k][0], X_[k][1], X_[k][2]));
+      best->tractions.push_back(traction.load);
+    }
+}
+
+std::vector<Index> const& Boundary::arrange(Surface const& surface, Points const& x, Shuffle const& shuffle) {
+  sort_facets(surface, X_);
+  particles_.clear();
+  for (std::size_t k = 0; k < X_.size(); ++k)
+    if (!sides_[k].empty() || !held_[k].empty()) particles_.push_back(static_cast<Index>(k));
+  auto const ascending = particles_;
+  auto const numbers = shuffled_indices(particles_.size(), shuffle);
+  for (std::size_t k = 0; k < numbers.size(); ++k) particles_[k] = ascending[numbers[k]];
+  turn(X_);
+  for (auto& sides : sides_)
+    for (auto& side : sides) side.reference_normal = side.normal;
+  attach_tractions();
+  turn(x);
+  items_.assign(particles_.size(), {});
+  return particles_;
+}
+
+/// A pressure that does not follow keeps the normal of the start.
+Point Boundary::traction_of_load(std::size_t traction, Side const& side, Point const& X, double time) const {
+  Point t{};
+  Load const& load = tractions_[traction];
+  if (has_ended(load.until, time)) return t;
+  if (load.pressure) return acceleration_by(load.value, load.follows ? side.normal : side.reference_normal, 1, X, time);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(D_); ++c) t[c] = load.value[c](X, time);
+  return t;
+}
+
+Point Boundary::traction_on(Side const& side, Point const& X, double time) const {
+  Point t{};
+  for (std::size_t const l : side.tractions) {
+    Point const part = traction_of_load(l, side, X, time);
+    for (std::size_t c = 0; c < 3; ++c) t[c] += part[c];
+  }
+  return t;
+}
+
+void Boundary::hold(Index particle, double time, double dt, Point const& velocity, BoundaryItem& item) const {
+  auto const at = static_cast<std::size_t>(particle);
+  std::vector<Held> lasting;
+  std::vector<Direction> directions;
+  // The support named last decides where several hold a particle.
+  for (std::size_t k = held_[at].size(); k-- > 0;) {
+    Held const& held = held_[at][k];
+    if (has_ended(supports_[held.support].until, time)) continue;
+    lasting.push_back(held);
+    directions.push_back(held.direction);
+  }
+  item.held = 0;
+  for (PrescribedAxis const& along : hold_along(directions)) {
+    std::copy(along.direction.begin(), along.direction.end(), item.direction[item.held]);
+    item.support[item.held] = static_cast<int>(lasting[along.row].support);
+    item.speed_before[item.held] = dot(velocity, along.direction);
+    item.speed_after[item.held] = along.speed([&](std::size_t row) {
+      auto const& given = supports_[lasting[row].support].velocity;
+      return given ? speed_along(*given, lasting[row].direction, X_[at], time + dt) : 0;
+    });
+    ++item.held;
+  }
+}
+
+void Boundary::load(Index particle, double time, double dt, Stress const& stress, BoundaryItem& item) const {
+  auto const at = static_cast<std::size_t>(particle);
+  int const n = D_ * (D_ + 1) / 2;
+  item.rows = 0;
+  std::vector<Point> held;
+  held.reserve(static_cast<std::size_t>(item.held));
+  for (int h = 0; h < item.held; ++h)
+    held.push_back({item.direction[h][0], item.direction[h][1], item.direction[h][2]});
+  std::vector<Point> const free = free_directions(held, D_);
+  bool const fresh = !(time > 0) || std::any_of(held_[at].begin(), held_[at].end(), [&](Held const& h) {
+    double const until = supports_[h.support].until;
+    return has_ended(until, time) && !has_ended(until, time * (1 - 1e-8));
+  });
+  for (auto const& side : sides_[at]) {
+    Point const now = traction_on(side, X_[at], time), then = traction_on(side, X_[at], time + dt);
+    for (auto const& d : free) {
+      auto row = dyad(d, side.normal, D_);
+      double before = dot(d, now), after = dot(d, then);
+      double const whole = std::sqrt(std::inner_product(row.begin(), row.end(), row.begin(), 0.0));
+      for (int r = 0; r < item.rows; ++r) {
+        double part = 0;
+        for (int c = 0; c < n; ++c) part += row[static_cast<std::size_t>(c)] * item.row[r][c];
+        for (int c = 0; c < n; ++c) row[static_cast<std::size_t>(c)] -= part * item.row[r][c];
+        before -= part * item.before[r];
+        after -= part * item.after[r];
+      }
+      double const rest = std::sqrt(std::inner_product(row.begin(), row.end(), row.begin(), 0.0));
+      if (rest < 0.3 * whole || item.rows == n) continue;  // almost linearly dependent
+      for (int c = 0; c < n; ++c) item.row[item.rows][c] = row[static_cast<std::size_t>(c)] / rest;
+      item.before[item.rows] = !fresh ? before / rest : mandel_product(item.row[item.rows], stress, D_);
+      item.after[item.rows] = after / rest;
+      std::copy(d.begin(), d.end(), item.along[item.rows]);
+      std::copy(side.normal.begin(), side.normal.end(), item.normal[item.rows]);
+      ++item.rows;
+    }
+  }
+}
+
+void Boundary::prepare(double time, double dt, Points const& x, std::function<Point(Index)> const& velocity,
+                       std::function<Stress(Index)> const& stress_now) {
+  turn(x);
+  for (std::size_t k = 0; k < particles_.size(); ++k) {
+    hold(particles_[k], time, dt, velocity(particles_[k]), items_[k]);
+    load(particles_[k], time, dt, stress_now(particles_[k]), items_[k]);
+  }
+}
+
+void Boundary::prepare_speeds(double time, double dt, Points const& x, std::function<Point(Index)> const& velocity) {
+  if (has_tractions()) turn(x);
+  if (!holds()) return;
+  for (std::size_t k = 0; k < particles_.size(); ++k) hold(particles_[k], time, dt, velocity(particles_[k]), items_[k]);
+}
+
+double Boundary::power(std::function<Point(Index)> const& velocity, std::function<Stress(Index)> const& stress) const {
+  exec::ReproducibleSum sum;
+  for (Index const particle : particles_)
+    for (auto const& side : sides_[static_cast<std::size_t>(particle)])
+      sum += dot(velocity(particle), traction_of(stress(particle), side.area, D_));
+  return sum.value();
+}
+
+Point Boundary::force_on_sides(Index particle, Stress const& stress) const {
+  Point f{};
+  for (auto const& side : sides_[static_cast<std::size_t>(particle)]) {
+    Point const part = traction_of(stress, side.area, D_);
+    for (std::size_t c = 0; c < 3; ++c) f[c] += part[c];
+  }
+  return f;
+}
+
+void Boundary::each_traction(double time, AddLoad const& add) const {
+  for (Index const particle : particles_)
+    for (auto const& side : sides_[static_cast<std::size_t>(particle)])
+      for (std::size_t const l : side.tractions) {
+        Point f = traction_of_load(l, side, X_[static_cast<std::size_t>(particle)], time);
+        for (double& c : f) c *= length(side.area);
+        add(traction_number_[l], particle, f);
+      }
+}
+
+bool Boundary::holds() const {
+  return std::any_of(held_.begin(), held_.end(), [](auto const& held) { return !held.empty(); });
+}
+
+void Boundary::each_acceleration(double time, AddLoad const& add) const {
+  for (std::size_t l = 0; l < accelerations_.size(); ++l) {
+    Load const& load = accelerations_[l];
+    if (has_ended(load.until, time)) continue;
+    for (std::size_t k = 0; k < load.particles.size(); ++k) {
+      Point a{};
+      for (std::size_t c = 0; c < static_cast<std::size_t>(D_); ++c)
+        a[c] = load.factor[k] * load.value[c](X_[static_cast<std::size_t>(load.particles[k])], time);
+      add(acceleration_number_[l], static_cast<Index>(load.particles[k]), a);
+    }
+  }
+}
+
+double Boundary::next_end_time(double time) const {
+  return piola::next_end_time(time, supports_, tractions_, accelerations_);
+}
+
+}  // namespace piola::taylor_sph

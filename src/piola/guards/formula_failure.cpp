@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/guards/formula_failure.hpp"
+#include "piola/base/text.hpp"
+#include "piola/input/body_properties.hpp"
+#include "piola/input/check_case.hpp"
+#include "piola/input/region_checks.hpp"
+#include <cmath>
+#include <fmt/format.h>
+
+namespace piola {
+namespace {
+
+using Components = std::array<Expression, 3>;
+
+/// Formulas of one section of the case, with their targets.
+struct ActingFormulas {
+  std::string owner;  ///< load on body "bar": pressure
+  Components const& formulas;
+  std::vector<std::int64_t> ids;
+  double until;  ///< [s]
+};
+
+std::optional<Failure> first_failure(ActingFormulas const& acting, ParticleSet const& particles,
+                                     TimeState const& moment) {
+  for (double const part : {-1.0, -0.5, 0.0, 1.0}) {  // times of evaluation within a step
+    double const t = std::max(0.0, moment.time + part * moment.dt);
+    if (t > acting.until) continue;
+    for (Expression const& formula : acting.formulas) {
+      if (!is_formula(formula)) continue;
+      for (std::int64_t const id : acting.ids) {
+        auto const& X = particles.X[static_cast<std::size_t>(id)];
+        double const value = formula(X, t);
+        if (std::isfinite(value)) continue;
+        Failure failure;
+        failure.what =
+            fmt::format("{} = {} is {} at t = {:.6g} s, X = {}", acting.owner, in_quotes(formula.text()),
+                        std::isnan(value) ? "not a number" : "infinite", t, point_text(X, particles.dimension));
+        return failure;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Failure> failure_of_formula(CaseSpec const& spec, ParticleSet const& particles, TimeState const& moment) {
+  constexpr std::array kinds{"traction", "body_force", "acceleration", "pressure"};
+  constexpr double always = std::numeric_limits<double>::infinity();
+  std::vector<ActingFormulas> all;
+  for (LoadSpec const& load : spec.loads)
+    all.push_back({"load on body " + in_quotes(load.body) + ": " + kinds[static_cast<std::size_t>(load.kind)],
+                   load.value, loaded_particles(particles, *body_named(particles, load.body), load), load.until});
+  for (SupportSpec const& support : spec.supports)
+    if (support.velocity)
+      all.push_back({"support of body " + in_quotes(support.body) + ": velocity", *support.velocity,
+                     supported_particles(particles, *body_named(particles, support.body), support), support.until});
+  for (RigidSpec const& rigid : spec.rigids)
+    for (auto const& [key, formulas] :
+         {std::pair{"velocity", &rigid.velocity}, std::pair{"angular_velocity", &rigid.angular_velocity},
+          std::pair{"gravity", &rigid.gravity}})
+      all.push_back({"rigid shape " + in_quotes(rigid.name) + ": " + key, *formulas, {0}, always});
+  for (ActingFormulas const& acting : all)
+    if (auto failure = first_failure(acting, particles, moment)) return failure;
+  return std::nullopt;
+}
+
+}  // namespace piola

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/measures/probe_set.hpp"
+#include <algorithm>
+
+namespace piola {
+
+ProbeSet::ProbeSet(CaseSpec const& spec, ParticleSet const& particles) : particles_(particles), specs_(spec.probes) {
+  for (ProbeSpec const& probe : spec.probes) probes_.emplace_back(probe, particles);
+}
+
+std::vector<std::vector<double>> ProbeSet::evaluate(Formulation const& formulation, double time,
+                                                    OnAllRanks on_all_ranks) {
+  std::vector<std::vector<double>> values(probes_.size());
+  if (std::any_of(probes_.begin(), probes_.end(), [](Probe const& probe) { return probe.is_reducible(); }))
+    on_all_ranks(time, [&] { values = evaluate_additive(formulation, time); });
+  FieldCache all(formulation, particles_);
+  for (std::size_t k = 0; k < probes_.size(); ++k)
+    if (!probes_[k].is_reducible()) values[k] = probes_[k].evaluate(all, time);
+  return values;
+}
+
+void ProbeSet::evaluate_local(Formulation const& formulation, double time) { evaluate_additive(formulation, time); }
+
+/// Recreates probes that were restricted to the local particles of an earlier partition.
+void ProbeSet::distribute(std::optional<std::vector<std::int64_t>> const& local) {
+  for (std::size_t k = 0; k < probes_.size(); ++k) {
+    Probe& probe = probes_[k];
+    if (!probe.is_reducible()) continue;
+    if (distributed_at_) {
+      double const state = probe.state();
+      probe = Probe(specs_[k], particles_);
+      probe.restore(state);
+    }
+    probe.share(local);
+  }
+}
+
+std::vector<std::vector<double>> ProbeSet::evaluate_additive(Formulation const& formulation, double time) {
+  auto const statistics = formulation.repartition_statistics();
+  std::size_t const partitions = statistics ? statistics->imbalance.size() : 0;
+  if (distributed_at_ != partitions) distribute(formulation.local_particles());
+  distributed_at_ = partitions;
+  FieldCache own(formulation, particles_, FieldCache::Of::local);
+  std::vector<std::vector<double>> values;
+  for (Probe& probe : probes_)
+    values.push_back(probe.is_reducible() ? probe.evaluate(own, time) : std::vector<double>());
+  return values;
+}
+
+}  // namespace piola

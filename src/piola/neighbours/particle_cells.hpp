@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/math/lanes.hpp"
+#include "piola/particles/particle_set.hpp"
+#include <array>
+#include <vector>
+
+/// Cells of particles: the points of the undeformed body that are nearer to one particle than to any other, distances
+/// measured in spacings. Integrals over them and over the parts of the surface that belong to them.
+namespace piola {
+
+/// A particle's cell.
+struct CellMoments {
+  double volume = 0;                 ///< [m^D]
+  std::array<double, 3> centroid{};  ///< relative to the particle [m]
+  std::array<double, 6> spread{};    ///< central second moments over the volume [m2]: XX YY ZZ YZ XZ XY
+};
+
+/// Sum of a particle's surface patches that face one direction of an axis.
+struct SurfacePatch {
+  Index particle = 0;              ///< counted from the body's first
+  int axis = 0;                    ///< of the outward normal
+  bool upper = false;              ///< the normal points to larger coordinates
+  bool outermost = false;          ///< on the box around the body: part of one of its flat faces
+  double area = 0;                 ///< [m^(D-1)]
+  std::array<double, 3> first{};   ///< integral of r, the place relative to the particle [m^D]
+  std::array<double, 6> second{};  ///< of r1^2/2, r2^2/2, r3^2/2, r2 r3, r1 r3, r1 r2 [m^(D+1)]
+};
+
+struct BodyCells {
+  std::vector<CellMoments> cell;  ///< per particle of the body
+  std::vector<SurfacePatch> patch;
+};
+
+/// Whether cells are the blocks of a lattice: a box that one fills.
+inline bool has_lattice_cells(Body const& body) { return body.regular && !body.off_lattice && !body.outline.inside; }
+
+/// Exact for boxes filled from a lattice. Others are sampled by blocks of a sixth of the spacing, aligned with the box
+/// around them, packed ones stretched to their exact volume (record 21). Volumes and surface are of the same body, so
+/// the divergence theorem holds for quadratic fields to round-off. Needs Body::outline. Cells may be without a block.
+BodyCells measure_cells(ParticleSet const& set, Body const& body);
+
+/// Gives the particles of a body the volumes of their cells.
+void take_cell_volumes(ParticleSet& set, Body const& body);
+
+}  // namespace piola

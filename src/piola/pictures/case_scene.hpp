@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/drawing/picture.hpp"
+#include "piola/input/case_spec.hpp"
+#include "piola/mechanics/rigid_state.hpp"
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace piola {
+
+/// The upward direction in the pictures of a case: output.pictures.up; else against gravity (a constant acceleration
+/// along an axis of all particles of a body); else the outward normal of a resting rigid plane across an axis; else y.
+Up upwards(CaseSpec const& spec);
+
+/// The rigid shapes of a case at a time [s]. Free or rotating shapes are placed by `states`, if present, else as at the
+/// start.
+std::vector<RigidShape> shapes_at(std::vector<RigidSpec> const& rigids, double time,
+                                  std::vector<RigidState> const& states = {});
+
+/// The representation of a word of representation_words.
+Representation representation_of(std::string_view word);
+
+/// How the bodies of a picture of a case are drawn.
+Appearance appearance_of(CaseSpec const& spec, PictureSpec const& picture);
+
+/// The title of a picture: that of the case, with the magnification of displacements.
+std::string title_of(std::string const& title, PictureSpec const& picture);
+
+/// Positions with displacements magnified by `warp` [m]: X + warp (x - X).
+std::vector<std::array<double, 3>> warped(std::span<std::array<double, 3> const> x,
+                                          std::span<std::array<double, 3> const> X, double warp);
+
+/// Per particle: whether supports of the case hold it, in some direction at some time.
+std::vector<std::uint8_t> held_particles(CaseSpec const& spec, ParticleSet const& particles);
+
+/// Per body: torn cells of its mesh, see torn_cells. `before`: those of the moment before; empty: none.
+std::vector<std::vector<Index>> current_torn_cells(std::span<ReferenceMesh const> meshes,
+                                                   std::span<std::array<double, 3> const> points,
+                                                   std::span<std::uint8_t const> loose,
+                                                   std::vector<std::vector<Index>> const& before);
+
+/// Per particle: whether it has permanently lost its neighbours: damage 1, or Eulerian (kernel type 1). Empty spans:
+/// none.
+std::vector<std::uint8_t> loose_particles(std::span<double const> damage, std::span<double const> kernel_type,
+                                          std::size_t particles);
+
+}  // namespace piola

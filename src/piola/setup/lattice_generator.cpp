@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/setup/lattice_generator.hpp"
+#include "piola/exec/host_loops.hpp"
+#include "piola/math/hash.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace piola {
+namespace {
+
+using Vec3 = std::array<double, 3>;
+using Index3 = std::array<int, 3>;
+using Lattice = GenerationLattice;
+
+struct Rows {
+  std::int64_t begin = 0, end = 0;  ///< lattice indices along the first direction [begin, end)
+};
+
+bool single(ShapeSpec const& shape, int d) { return shape.particles[static_cast<std::size_t>(d)] <= 1; }
+
+Lattice box_lattice(ShapeSpec const& shape) {
+  Lattice lattice;
+  for (int d = 0; d < shape.dimension; ++d) {
+    auto const i = static_cast<std::size_t>(d);
+    double const length = shape.max[i] - shape.min[i];
+    int const n = std::max(1, shape.particles[i]);
+    bool const cells = shape.placement == ShapeSpec::Placement::cell_centred || single(shape, d);
+    lattice.count[i] = n;
+    lattice.spacing[i] = cells ? length / n : length / (n - 1);
+    lattice.first[i] = cells ? shape.min[i] + lattice.spacing[i] / 2 : shape.min[i];
+  }
+  return lattice;
+}
+
+}  // namespace
+
+// Cells over a length; a number that no lattice can have is kept at the largest int and refused by the caller.
+int cells_over(double length, double spacing) {
+  double const cells = std::round(length / spacing);
+  if (!(cells < std::numeric_limits<int>::max())) return std::numeric_limits<int>::max();
+  return std::max(1, static_cast<int>(cells));
+}
+
+bool along_axis(ShapeSpec const& shape, int d) { return shape.kind == ShapeSpec::Kind::cylinder && d == shape.axis; }
+
+/// Whether the outermost particles in direction d lie on the faces.
+bool on_faces(ShapeSpec const& shape, int d) {
+  bool const flat = shape.kind == ShapeSpec::Kind::box || along_axis(shape, d);
+  return flat && shape.placement == ShapeSpec::Placement::on_boundary;
+}
+
+namespace {
+
+Lattice round_lattice(ShapeSpec const& shape) {
+  Lattice lattice;
+  for (int d = 0; d < shape.dimension; ++d) {
+    auto const i = static_cast<std::size_t>(d);
+    bool const along = along_axis(shape, d), faces = on_faces(shape, d);
+    double const length = along ? shape.length : 2 * shape.radius;
+    int const n = cells_over(length, shape.spacing);
+    lattice.count[i] = faces ? n + 1 : n;
+    lattice.spacing[i] = along ? length / n : shape.spacing;
+    lattice.first[i] = !along  ? shape.centre[i] - 0.5 * (n - 1) * lattice.spacing[i]
+                       : faces ? shape.centre[i]
+                               : shape.centre[i] + lattice.spacing[i] / 2;
+  }
+  return lattice;
+}
+
+}  // namespace
+
+GenerationLattice lattice_of(ShapeSpec const& shape) {
+  return shape.kind == ShapeSpec::Kind::box ? box_lattice(shape) : round_lattice(shape);
+}
+
+namespace {
+
+// Squared distance from the centre, or from the axis of a cylinder, that a lattice index adds in direction d.
+double round_part(ShapeSpec const& shape, Lattice const& lattice, int d, std::int64_t index) {
+  if (d >= shape.dimension || along_axis(shape, d)) return 0;
+  auto const i = static_cast<std::size_t>(d);
+  double const offset = (static_cast<double>(index) - 0.5 * (lattice.count[i] - 1)) * lattice.spacing[i];
+  return offset * offset;
+}
+
+// The lattice points of row (j, k) within a radius: a contiguous range.
+Rows row_within(ShapeSpec const& shape, Lattice const& lattice, double radius2, int j, int k) {
+  std::int64_t const n = lattice.count[0];
+  double const others = round_part(shape, lattice, 1, j) + round_part(shape, lattice, 2, k);
+  auto const inside = [&](std::int64_t i) { return round_part(shape, lattice, 0, i) + others <= radius2; };
+  std::int64_t const middle = (n - 1) / 2;
+  if (!inside(middle)) return {0, 0};
+  std::int64_t low = 0, high = middle;  // the first inside index is in [low, high]
+  while (low < high) {
+    std::int64_t const half = (low + high) / 2;
+    if (inside(half))
+      high = half;
+    else
+      low = half + 1;
+  }
+  return {low, n - low};
+}
+
+/// The lattice points of a row that are in the body, [begin, end) without those in the hole.
+struct BodyRow {
+  Rows all, hole;
+  std::int64_t count() const { return all.end - all.begin - (hole.end - hole.begin); }
+  bool contains(std::int64_t i) const { return i < hole.begin || i >= hole.end; }
+};
+
+BodyRow inside_row(ShapeSpec const& shape, Lattice const& lattice, int j, int k) {
+  // Points on the inner surface belong to the body in spite of rounding.
+  constexpr double rounding = 1e-12;
+  if (shape.kind == ShapeSpec::Kind::box) return {{0, lattice.count[0]}, {}};
+  BodyRow row{row_within(shape, lattice, shape.radius * shape.radius, j, k), {}};
+  double const inner2 = shape.inner_radius * shape.inner_radius;
+  if (inner2 > 0) row.hole = row_within(shape, lattice, inner2 * (1 - rounding), j, k);
+  return row;
+}
+
+double share_of_cell(ShapeSpec const& shape, Lattice const& lattice, Index3 const& index) {
+  double share = 1;
+  for (int d = 0; d < shape.dimension; ++d) {
+    auto const i = static_cast<std::size_t>(d);
+    if (!on_faces(shape, d) || lattice.count[i] == 1) continue;
+    if (index[i] == 0 || index[i] == lattice.count[i] - 1) share /= 2;
+  }
+  return share;
+}
+
+Vec3 position(ShapeSpec const& shape, Lattice const& lattice, Index3 const& index) {
+  Vec3 X{};
+  for (int d = 0; d < shape.dimension; ++d) {
+    auto const i = static_cast<std::size_t>(d);
+    X[i] = lattice.first[i] + index[i] * lattice.spacing[i];
+    // The far face exactly, so that a region such as "Y >= L" selects it in spite of rounding.
+    if (!on_faces(shape, d) || lattice.count[i] == 1 || index[i] < lattice.count[i] - 1) continue;
+    X[i] = along_axis(shape, d) ? shape.centre[i] + shape.length : shape.max[i];
+  }
+  return X;
+}
+
+/// The jitter of a particle depends only on the seed, its lattice position (x fastest) and the axis. It is thus the
+/// same for any choice of boxes and ranks.
+void shake(ShapeSpec const& shape, Lattice const& lattice, Index3 const& index, Vec3& X) {
+  if (share_of_cell(shape, lattice, index) < 1) return;  // on a face
+  std::uint64_t place = 0;
+  for (std::size_t i = 3; i-- > 0;)
+    place = place * static_cast<std::uint64_t>(lattice.count[i]) + static_cast<std::uint64_t>(index[i]);
+  constexpr std::uint64_t stream = std::uint64_t{1} << 32;  // other numbers than those of a material with this seed
+  for (int d = 0; d < shape.dimension; ++d) {
+    auto const i = static_cast<std::size_t>(d);
+    X[i] += shape.jitter * lattice.spacing[i] * (2 * uniform(stream + shape.seed, 3 * place + i) - 1);
+  }
+}
+
+BodyRow part_of_row(BodyRow row, std::int64_t first, std::int64_t last) {
+  for (Rows* const run : {&row.all, &row.hole}) {
+    run->begin = std::clamp(run->begin, first, last);
+    run->end = std::clamp(run->end, run->begin, last);
+  }
+  return row;
+}
+
+}  // namespace
+
+LatticeGenerator::LatticeGenerator(ShapeSpec const& shape) : shape_(shape), lattice_(lattice_of(shape)) {
+  for (int d = 0; d < shape.dimension; ++d) cell_ *= lattice_.spacing[static_cast<std::size_t>(d)];
+  auto const [n, across, planes] = lattice_.count;
+  if (shape.kind == ShapeSpec::Kind::box) {
+    in_plane_ = static_cast<std::int64_t>(n) * across;
+    return;
+  }
+  plane_begin_.assign(static_cast<std::size_t>(planes) + 1, 0);
+  double const rows = static_cast<double>(planes) * across;
+  auto const shared = static_cast<Index>(std::min(rows, double{std::numeric_limits<Index>::max()}));
+  exec_host::parallel_for_chunks(planes, shared, [&](Index k) {
+    std::int64_t sum = 0;
+    for (int j = 0; j < lattice_.count[1]; ++j) sum += inside_row(shape_, lattice_, j, k).count();
+    plane_begin_[static_cast<std::size_t>(k) + 1] = sum;
+  });
+  for (std::size_t k = 1; k < plane_begin_.size(); ++k) plane_begin_[k] += plane_begin_[k - 1];
+}
+
+std::int64_t LatticeGenerator::first_of_plane(int k) const {
+  return plane_begin_.empty() ? k * in_plane_ : plane_begin_[static_cast<std::size_t>(k)];
+}
+
+std::vector<LatticeGenerator::Run> LatticeGenerator::runs(LatticeBox const& box) const {
+  std::vector<Run> all;
+  for (int k = box.first[2]; k < box.last[2]; ++k) {
+    std::int64_t id = first_of_plane(k);
+    for (int j = 0; j < box.last[1]; ++j) {
+      BodyRow const row = inside_row(shape_, lattice_, j, k);
+      if (j >= box.first[1]) {
+        BodyRow const part = part_of_row(row, box.first[0], box.last[0]);
+        bool const holed = row.hole.end > row.hole.begin;
+        // Before the hole, or all; then behind it.
+        Rows const before{part.all.begin, holed ? std::min(part.all.end, part.hole.begin) : part.all.end};
+        if (before.end > before.begin)
+          all.push_back({id + before.begin - row.all.begin, before.begin, before.end, j, k});
+        Rows const behind{holed ? std::max(part.all.begin, part.hole.end) : part.all.end, part.all.end};
+        std::int64_t const missing = row.hole.end - row.hole.begin;
+        if (behind.end > behind.begin)
+          all.push_back({id + behind.begin - row.all.begin - missing, behind.begin, behind.end, j, k});
+      }
+      id += row.count();
+    }
+  }
+  return all;
+}
+
+GeneratedParticle LatticeGenerator::at(std::array<int, 3> const& place) const {
+  GeneratedParticle born{position(shape_, lattice_, place), cell_ * share_of_cell(shape_, lattice_, place)};
+  if (shape_.jitter > 0) shake(shape_, lattice_, place, born.X);
+  return born;
+}
+
+std::int64_t LatticeGenerator::count(LatticeBox const& box) const {
+  std::int64_t sum = 0;
+  for (Run const& run : runs(box)) sum += run.last - run.first;
+  return sum;
+}
+
+GeneratedParticles LatticeGenerator::in(LatticeBox const& box) const {
+  auto const runs = this->runs(box);
+  std::vector<std::size_t> begin{0};
+  for (Run const& run : runs) begin.push_back(begin.back() + static_cast<std::size_t>(run.last - run.first));
+  GeneratedParticles born;
+  born.kernel_volume = cell_;
+  born.id.resize(begin.back());
+  born.X.resize(begin.back());
+  born.lattice_index.resize(begin.back());
+  born.volume.resize(begin.back());
+  each_run(runs, [&](std::size_t run, std::int64_t i) {
+    std::size_t const to = begin[run] + static_cast<std::size_t>(i - runs[run].first);
+    born.lattice_index[to] = {static_cast<int>(i), runs[run].j, runs[run].k};
+    born.id[to] = runs[run].id + (i - runs[run].first);
+    GeneratedParticle const birth = at(born.lattice_index[to]);
+    born.X[to] = birth.X;
+    born.volume[to] = birth.volume;
+  });
+  return born;
+}
+
+}  // namespace piola
