@@ -18,7 +18,7 @@
 namespace {
 
 using namespace piola;
-using app::tell;
+using app::print_message;
 
 /// One rank speaks for all of them.
 int report(std::string const& message, int code) {

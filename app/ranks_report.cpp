@@ -71,7 +71,7 @@ void print_rank_estimate(CaseSpec const& spec, ParticleSet const& particles, Est
           s, [](RankLoad const& r) { return r.bytes; }, size),
       between(
           s, [](RankLoad const& r) { return r.memory; }, size));
-  if (s.to_all > 0) print_result("  all ranks are told {} in a step\n", size(s.to_all));
+  if (s.replicated_values > 0) print_result("  all ranks are told {} in a step\n", size(s.replicated_values));
   StepTimes const& t = s.times;
   auto const time = [](double seconds) { return quantity_text(seconds, "s", 3); };
   print_result("  a step, estimated: {} (sweeps {}, messages {}, {} collectives {}, rows of history.csv {})\n",
