@@ -281,7 +281,6 @@ Simulation build_from(CaseSpec spec, Assembly assembly) {
     simulation.mass += mass_of(spec.bodies[b], assembly.particles.bodies[b], assembly.particles);
   }
   for (RigidShape const& shape : assembly.rigid_shapes) simulation.mass += shape.mass;
-  refuse_unsupported_on_ranks(assembly);
   agree_to_continue();
   require_identical_case(assembly);
   exec_host::set_lazy_allocation(comm::size());
