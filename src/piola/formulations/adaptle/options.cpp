@@ -273,8 +273,6 @@ void check_body(BodyOptions const& o, Settings const& s, std::string const& name
 
 }  // namespace
 
-std::span<std::string_view const> conversion_variables() { return variables; }
-
 FormulationInfo info() {
   FormulationInfo info{"adaptle",
                        "total-Lagrangian SPH whose particles turn Eulerian where the material is torn; plasticity, "
