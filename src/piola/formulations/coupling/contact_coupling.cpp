@@ -251,7 +251,7 @@ void ContactCoupling::finish(Formulations const& formulations, double time, doub
   drop_lost_surfaces(formulations);
   ties_.evaluate(system_, x_);
   system_.evaluate(x_, dt);
-  ties_.hand_over(system_);
+  ties_.transfer_energy(system_);
   motion_.evaluate(system_, dt);
   colours_.evaluate(x_, mass_);
   sum_forces();

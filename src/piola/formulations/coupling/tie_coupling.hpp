@@ -21,7 +21,7 @@ class TieCoupling {
                                                                                        ///< rigid shapes in `system`
   /// Accounts for the energy that contact stores at points whose tie has just failed, as supplied by the ties. Call
   /// after contact has been evaluated.
-  void hand_over(contact::SurfaceContactSystem const& system);
+  void transfer_energy(contact::SurfaceContactSystem const& system);
   std::vector<Index> const& pushed() const { return ties_.pushed(); }
   void add_forces(std::vector<Vec<3>>& forces) const;
 

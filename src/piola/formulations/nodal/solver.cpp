@@ -96,7 +96,7 @@ class Solver final : public Formulation, public SetUpChecked {
       if (moved[k] == 0) continue;
       bodies_[k]->boundary().project_out_reactions(bodies_[k]->state());
       if (!ends_step_) continue;
-      bodies_[k]->boundary().hand_over(actions_);
+      bodies_[k]->boundary().add_resultants_to(actions_);
       bodies_[k]->boundary().reset_impulses();
     }
     ends_step_ = false;

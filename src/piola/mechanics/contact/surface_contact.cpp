@@ -13,7 +13,7 @@ constexpr double closing = 0.1;  // of a spacing in a step
 
 }  // namespace
 
-SurfaceContactSystem::System(ParticleSet const& particles, std::vector<Surface> surfaces,
+SurfaceContactSystem::SurfaceContactSystem(ParticleSet const& particles, std::vector<Surface> surfaces,
                              std::vector<RigidSurface> rigids, Setting setting)
     : surfaces_(std::move(surfaces)),
       rigids_(std::move(rigids)),
