@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/exec/memory.hpp"
 #include "piola/formulations/adaptle/state.hpp"
+#include "piola/particles/particle_set.hpp"
 #include <span>
 #include <vector>
 

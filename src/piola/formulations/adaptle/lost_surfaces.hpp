@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/neighbours/cell_grid.hpp"
+#include "piola/particles/particle_set.hpp"
 #include <cstdint>
 #include <map>
 #include <memory>

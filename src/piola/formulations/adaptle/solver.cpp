@@ -5,6 +5,7 @@
 #include "piola/formulations/adaptle/observe.hpp"
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/formulations/adaptle/particles.hpp"
+#include "piola/formulations/adaptle/subscript.hpp"
 #include "piola/formulations/common/field_checkpoint.hpp"
 #include "piola/formulations/common/surface_loss.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"

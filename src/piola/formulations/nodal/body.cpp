@@ -49,7 +49,7 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
         "initial_deformation_gradient",
         body_.name));
   set_materials(materials_of(assembly, body));
-  set_up(assembly, body, backend);
+  set_up(assembly, backend);
   if (!images_.empty() && !reference_.held.empty())
     throw InputError(fmt::format(
         "body '{}': a support that holds the surface of a patch does not go together with mirror planes (allowed: "
@@ -67,7 +67,7 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
   backend.step(state_, 0);  // the accelerations of the start
 }
 
-void NodalBody::set_up(Assembly const& assembly, std::size_t body, Backend const& backend) {
+void NodalBody::set_up(Assembly const& assembly, Backend const& backend) {
   reference_ = make_reference({*set_, body_, order_, assembly.loads, assembly.supports, densities(),
                                options_.least_mass, backend, images_.empty() ? nullptr : &images_, 1e-3,
                                comm::is_parallel() ? std::optional(state_.slots) : std::nullopt});

@@ -93,7 +93,7 @@ class NodalBody {
   double share(Index slot) const {
     return reference_.share.empty() ? 1 : reference_.share[static_cast<std::size_t>(slot)];
   }
-  void set_up(Assembly const& assembly, std::size_t body, Backend const& backend);
+  void set_up(Assembly const& assembly, Backend const& backend);
   MirrorImages make_images(Assembly const& assembly, std::size_t body) const;
   void attach_images();
   void keep_own_side();
