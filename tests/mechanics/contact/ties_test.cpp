@@ -136,10 +136,10 @@ TEST_P(TiesIn, ForcesAreTheSlopesOfTheEnergy) {
     double largest = 0;
     for (Vec<3> const& f : kept.forces()) largest = std::max(largest, std::sqrt(dot(f, f)));
     ASSERT_GT(largest, 0);
-    for (std::size_t n = 0; n < kept.pushed().size(); n += 3)
+    for (std::size_t n = 0; n < kept.loaded_indices().size(); n += 3)
       for (int c = 0; c < D; ++c) {
         constexpr double h = 1e-6;
-        auto const i = static_cast<std::size_t>(kept.pushed()[n]);
+        auto const i = static_cast<std::size_t>(kept.loaded_indices()[n]);
         auto moved = held.x;
         moved[i][c] += h;
         double high = held.energy(moved);

@@ -72,7 +72,7 @@ void TieCoupling::transfer_energy(contact::SurfaceContactSystem const& system) {
 }
 
 void TieCoupling::add_forces(std::vector<Vec<3>>& forces) const {
-  for (Index const k : ties_.pushed()) {
+  for (Index const k : ties_.loaded_indices()) {
     auto const i = static_cast<std::size_t>(k);
     forces[i] = forces[i] + ties_.forces()[i];
   }

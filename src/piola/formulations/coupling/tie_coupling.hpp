@@ -22,7 +22,7 @@ class TieCoupling {
   /// Accounts for the energy that contact stores at points whose tie has just failed, as supplied by the ties. Call
   /// after contact has been evaluated.
   void transfer_energy(contact::SurfaceContactSystem const& system);
-  std::vector<Index> const& pushed() const { return ties_.pushed(); }
+  std::vector<Index> const& loaded_indices() const { return ties_.loaded_indices(); }
   void add_forces(std::vector<Vec<3>>& forces) const;
 
   void begin();                             ///< starts a step

@@ -34,7 +34,7 @@ class Solver final : public Formulation, public SetUpChecked {
       bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, backend_));
       monitors_.push_back(std::make_unique<StabilityMonitor>(*bodies_.back(), backend_));
     }
-    pushed_ = assembly.pushed;
+    pushed_ = assembly.coupled;
     if (pushed_) slots_ = SlotsById(set_, bodies_);
   }
 
