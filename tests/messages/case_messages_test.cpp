@@ -60,7 +60,7 @@ TEST(CaseMessages, UnknownLawsAndFormulationsListWhatThereIs) {
             "johnson_cook, zerilli_armstrong, johnson_holmquist, steinberg_guinan) - did you mean \"neo_hookean\"?");
   EXPECT_EQ(
       message_of(sample_with("jst_sph", "mpm")),
-      "case.toml:11:24: body.formulation.name is \"mpm\" (allowed: jst_sph, jst_advection, taylor_sph, adaptle, nodal) "
+      "case.toml:11:24: body.formulation.name is \"mpm\" (allowed: jst_sph, taylor_sph, adaptle, nodal) "
       "- choose "
       "one of these");
 }

@@ -27,12 +27,10 @@ std::string shaped(std::string const& shape, std::string const& formulation = "j
 }
 
 TEST(ContactMessages, FormulationsWithoutContactSayWhoKnowsIt) {
-  FormulationInfo const advection = *find_formulation("jst_advection");
-  EXPECT_EQ(
-      refusal(advection, "contact").find("the formulation \"jst_advection\" knows no contact (allowed: contact in "),
-      0U);
+  FormulationInfo const other{"other", {}, {}, {}, {}};
+  EXPECT_EQ(refusal(other, "contact").find("the formulation \"other\" knows no contact (allowed: contact in "), 0U);
   for (char const* who : {"nodal", "jst_sph", "taylor_sph", "adaptle"})
-    EXPECT_NE(refusal(advection, "contact").find(who), std::string::npos) << who;
+    EXPECT_NE(refusal(other, "contact").find(who), std::string::npos) << who;
 }
 
 std::string two(std::string const& a, std::string const& b, std::string const& more) {

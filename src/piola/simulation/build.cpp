@@ -24,12 +24,6 @@
 namespace piola {
 namespace {
 
-/// Calls visit(id) for every particle of a body.
-template <class Visit>
-void for_each_id(Body const& body, Visit const& visit) {
-  for (std::int64_t id = body.first; id < body.last; ++id) visit(static_cast<std::size_t>(id));
-}
-
 template <std::size_t N>
 std::array<double, N> values_at(std::array<Expression, N> const& formulas, std::array<double, 3> const& X) {
   std::array<double, N> out{};
@@ -281,7 +275,6 @@ Simulation build_from(CaseSpec spec, Assembly assembly) {
     simulation.mass += mass_of(spec.bodies[b], assembly.particles.bodies[b], assembly.particles);
   }
   for (RigidShape const& shape : assembly.rigid_shapes) simulation.mass += shape.mass;
-  refuse_unsupported_on_ranks(assembly);
   agree_to_continue();
   require_identical_case(assembly);
   exec_host::set_lazy_allocation(comm::size());

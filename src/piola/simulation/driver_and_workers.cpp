@@ -247,25 +247,6 @@ void execute_command(Formulation& formulation, Command const& order) {
 
 }  // namespace
 
-void refuse_unsupported_on_ranks(Assembly const& assembly, int count) {
-  if (count < 2) return;
-  Problems problems;
-  auto const refuse = [&](std::string const& what) {
-    problems.add({}, fmt::format("{} on one rank (asked for {}) - start it without mpirun", what, count));
-  };
-  auto const shares = [](FormulationSpec const& spec) {
-    auto const info = find_formulation(spec.name);
-    return info && info->on_ranks;
-  };
-  // Formulations that do not run on ranks are allowed beside one that does; each rank then computes all of their
-  // bodies.
-  bool const any = std::any_of(assembly.formulations.begin(), assembly.formulations.end(), shares);
-  for (std::size_t k = 0; k < assembly.formulations.size() && !any; ++k)
-    refuse(fmt::format("body '{}': formulation \"{}\" runs", assembly.particles.bodies[k].name,
-                       assembly.formulations[k].name));
-  problems.raise_if_any();
-}
-
 void require_identical_case(Assembly const& assembly) {
   if (!comm::is_parallel()) return;
   std::uint64_t print = 14'695'981'039'346'656'037ULL;  // Fowler, Noll and Vo's, word by word

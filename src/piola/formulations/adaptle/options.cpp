@@ -273,8 +273,6 @@ void check_body(BodyOptions const& o, Settings const& s, std::string const& name
 
 }  // namespace
 
-std::span<std::string_view const> conversion_variables() { return variables; }
-
 FormulationInfo info() {
   FormulationInfo info{"adaptle",
                        "total-Lagrangian SPH whose particles turn Eulerian where the material is torn; plasticity, "
@@ -286,7 +284,7 @@ FormulationInfo info() {
   info.mirrors = false;
   info.contact = true;
   info.can_be_coupled = true;
-  info.on_ranks = info.observes_locally = info.has_spatial_halo = true;
+  info.observes_locally = info.has_spatial_halo = true;
   info.formulas = formulas;
   return info;
 }

@@ -60,9 +60,8 @@ SlotOrder id_order(ParticleSet const&, Body const& body, int /*ranks*/) {
 
 }  // namespace
 
-StepHaloExchanges::StepHaloExchanges(System const& s, ReferenceLists const& lists, std::vector<Partition> cuts,
-                                     ParticleOrder const& order)
-    : near_(cuts, order), cuts_(std::move(cuts)) {
+StepHaloExchanges::StepHaloExchanges(System const& s, ReferenceLists const& lists, std::vector<Partition> cuts)
+    : near_(cuts), cuts_(std::move(cuts)) {
   for (int b = 0; b < s.bodies && lists.built(); ++b) to_neighbours_.push_back(reference_halo(s, lists, b));
 }
 

@@ -22,7 +22,7 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
     : body_(set.bodies[body]),
       options_(options),
       D_(set.dimension),
-      order_(bisected(set, body_, shuffled_order(set, body_), comm::size())),
+      order_(bisected(set, body_, pencil_order(set, body_), comm::size())),
       set_(&set),
       images_(assembly, body, order_, {reach(), reach(), reach()}),
       fields_(D_),

@@ -54,7 +54,7 @@ FormulationInfo info() {
       total_lagrangian_laws,
       diagnostics};
   info.can_be_coupled = true;
-  info.on_ranks = info.observes_locally = true;
+  info.observes_locally = true;
   info.parts = true;
   info.surface_supports = true;
   info.outline = true;  // cells end at the surface, and mirror planes are there

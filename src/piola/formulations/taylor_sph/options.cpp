@@ -90,7 +90,6 @@ FormulationInfo info() {
   info.cracks = true;
   info.mirrors = false;
   info.can_be_coupled = true;
-  info.on_ranks = true;
   info.off_lattice = false;  // its hourglass control needs boxes of a lattice
   return info;
 }
