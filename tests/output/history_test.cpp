@@ -100,7 +100,7 @@ TEST(History, TellsOfRowsThatAreMissingOrWereChanged) {
   EXPECT_NE(HistoryFile(folder / "history.csv", columns, 0.2, mark).repair_note(), "");
   std::filesystem::remove(folder / "history.csv");
   HistoryFile const anew(folder / "history.csv", columns, 0.2, mark);
-  EXPECT_NE(anew.repair_note().find("the file was missing and begins anew"), std::string::npos) << anew.repair_note();
+  EXPECT_NE(anew.repair_note().find("the file was missing and starts here"), std::string::npos) << anew.repair_note();
   EXPECT_EQ(testing::text_of(folder / "history.csv"), "time,energy\n");
 }
 

@@ -198,7 +198,7 @@ std::vector<Acting> of_adaptle() {
       {"printed",
        "adaptle/tensile_patch",
        "column eulerian_particles",
-       {patch, upper, sheet("interface=printed"), sheet("correction=material")}},
+       {patch, upper, sheet("interface=published"), sheet("correction=material")}},
       {"corrected", "adaptle/tensile_patch", "column eulerian_particles", {eulerian}},
       {"fluxes",
        "adaptle/colliding_halves",
