@@ -9,11 +9,6 @@
 namespace piola {
 namespace {
 
-/// The next minor release empties these tables.
-struct RenamedKey {
-  std::string_view section, before, now;
-};
-
 constexpr std::array keys{
     RenamedKey{"run", "machine", "instruction_set"},
     RenamedKey{"run", "rest", "relax_tolerance"},
@@ -28,10 +23,6 @@ constexpr std::array keys{
     RenamedKey{"load", "follows", "follower"},
     RenamedKey{"mirror", "skew", "antisymmetric"},
     RenamedKey{"probe", "least_particles", "min_particles"},
-};
-
-struct RenamedWord {
-  std::string_view section, key, before, now;
 };
 
 constexpr std::array words{
@@ -102,6 +93,9 @@ class SpellingUpdate {
 };
 
 }  // namespace
+
+std::span<RenamedKey const> renamed_keys() { return keys; }
+std::span<RenamedWord const> renamed_words() { return words; }
 
 std::optional<std::string_view> renamed_key(std::string_view section, std::string_view key) {
   auto const found = std::find_if(keys.begin(), keys.end(),

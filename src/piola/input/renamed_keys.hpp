@@ -2,13 +2,27 @@
 #pragma once
 #include "piola/input/document.hpp"
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace piola {
 
-/// Returns the present spelling of a key of a section that had another one in the previous minor release. Empty for
-/// any other key. `section` as in KeyInfo.
+/// A key that had another spelling in the previous minor release. `section` as in KeyInfo.
+struct RenamedKey {
+  std::string_view section, before, now;
+};
+
+/// A word of a key that had another spelling in the previous minor release.
+struct RenamedWord {
+  std::string_view section, key, before, now;
+};
+
+/// All of them; columns and fields are in formulations/renamed_outputs.hpp. The next minor release empties these tables.
+std::span<RenamedKey const> renamed_keys();
+std::span<RenamedWord const> renamed_words();
+
+/// Returns the present spelling of a key of renamed_keys(). Empty for any other key.
 std::optional<std::string_view> renamed_key(std::string_view section, std::string_view key);
 
 /// Returns the section of a table: "body.formulation" for the key "formulation" of "body". Lists have the section of
