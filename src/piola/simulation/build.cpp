@@ -126,7 +126,7 @@ Load load_of(LoadSpec const& spec, CaseSpec const& from, ParticleSet const& part
             .value = spec.value,
             .until = spec.until,
             .pressure = spec.kind == LoadSpec::Kind::pressure,
-            .follows = spec.follows,
+            .follows = spec.follower,
             .name = spec.name};
   load.about = middle_of(load.particles, particles);
   if (!spec.on_face()) {
@@ -257,7 +257,8 @@ Assembly assemble(CaseSpec const& spec, ParticleSet particles) {
   for (SupportSpec const& support : spec.supports) a.supports.push_back(support_of(support, spec, a.particles));
   for (LoadSpec const& load : spec.loads) a.loads.push_back(load_of(load, spec, a.particles));
   for (MirrorSpec const& mirror : spec.mirrors)
-    a.mirrors.push_back({index_of_body(mirror.body, a.particles), mirror.face.axis, mirror.face.upper, mirror.skew});
+    a.mirrors.push_back(
+        {index_of_body(mirror.body, a.particles), mirror.face.axis, mirror.face.upper, mirror.antisymmetric});
   a.rigid_shapes.assign(spec.rigids.begin(), spec.rigids.end());
   if (spec.contact) a.contact = *spec.contact;
   a.contact_pairs.assign(spec.contact_pairs.begin(), spec.contact_pairs.end());

@@ -191,7 +191,7 @@ class DriverProxy final : public Formulation, public SetUpChecked {
   int stages_per_step() const override { return own().stages_per_step(); }
   std::vector<std::pair<std::string, double>> timings() const override {
     auto all = own().timings();
-    all.emplace_back("gathering", gathered);
+    all.emplace_back("gather", gathered);
     return all;
   }
   std::vector<SetUpCheck> set_up_checks() const override { return set_up_checks_of(own()); }

@@ -46,7 +46,7 @@ void check(Assembly const& assembly) {
     if (load.follows)
       problems.add({},
                    "adaptle: a pressure follows the deformed face (allowed: pressures along the normal of the start) - "
-                   "remove follows, or take nodal, jst_sph or taylor_sph");
+                   "remove follower, or take nodal, jst_sph or taylor_sph");
   problems.raise_if_any();
 }
 
@@ -148,7 +148,7 @@ std::optional<Failure> Solver::failure() const {
   Index const i = slot.index == FailureSlot::none ? 0 : slot.index;
   Fields const& p = particles_.fields();
   Failure f;
-  f.what = neighbour_overflow              ? "is in a crowd of more than 4096 neighbours"
+  f.what = neighbour_overflow              ? "has more than 4096 neighbours"
            : slot.code == not_a_number     ? "has a position, velocity or stress that is not a number"
            : slot.code == negative_density ? "has no positive density"
                                            : "is inverted";

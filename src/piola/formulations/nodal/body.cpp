@@ -81,10 +81,11 @@ MirrorImages NodalBody::make_images(Assembly const& assembly, std::size_t body) 
   for (auto const& plane : assembly.mirrors) {
     if (plane.body != body) continue;
     if (plane.skew)
-      throw InputError(fmt::format(
-          "body '{}': a skew mirror plane is a symmetry of small strains alone, and nodal has one energy for all "
-          "(allowed: mirror planes without skew; skew ones in jst_sph) - remove skew, or the plane",
-          body_.name));
+      throw InputError(
+          fmt::format("body '{}': an antisymmetric mirror plane is a symmetry of small strains alone, and nodal has "
+                      "one energy for all "
+                      "(allowed: symmetric planes; antisymmetric ones in jst_sph) - remove antisymmetric, or the plane",
+                      body_.name));
     if (plane.axis >= D_) continue;  // refused below
     auto const axis = static_cast<std::size_t>(plane.axis);
     bool const endless = reach[axis] > body_.spacing[axis];

@@ -292,7 +292,7 @@ void TaylorBody::follow_motion() {
   try {
     renew_lists();
   } catch (InputError const& error) {  // at the start this is an input error, later a body that came apart
-    lost_ = {worst_corner(), fmt::format("is in a body whose cells or lists cannot be made anew ({})", error.what())};
+    lost_ = {worst_corner(), fmt::format("is in a body whose cells or lists cannot be rebuilt ({})", error.what())};
   }
 }
 
