@@ -73,7 +73,7 @@ void NodalBody::set_up(Assembly const& assembly, std::size_t body, Backend const
   SlotOrder const order = slot_order(*set_, body_);
   MirrorImages const images = make_images(assembly, body, order);
   reference_ = make_reference({*set_, body_, order, assembly.loads, assembly.supports, densities(), options_.least_mass,
-                               backend, images.empty() ? nullptr : &images, 1e-3,
+                               backend, images.empty() ? nullptr : &images,
                                comm::is_parallel() ? std::optional(state_.slots) : std::nullopt});
   if (order.id != order_.id) reference_ = dealt_reference(std::move(reference_), order, order_);
 }
