@@ -101,19 +101,22 @@ void measure_column(BenchReport& report, BenchOptions const& options) {
 
 void measure_variables(BenchReport& report, BenchOptions const& options) {
   struct Choice {
-    char const *name, *variables, *filter;
+    char const *name, *scheme, *variables;
+    double poissons_ratio;
   };
-  constexpr Choice choices[] = {{"{p,F}, no filter", "pF", "off"},    {"{p,F}, filter", "pF", "on"},
-                                {"{p,F,J}, no filter", "pFJ", "off"}, {"{p,F,H,J}, no filter", "pFHJ", "off"},
-                                {"{p,F,J}, filter", "pFJ", "on"},     {"{p,F,H,J}, filter", "pFHJ", "on"}};
+  constexpr Choice choices[] = {{"{p,F}, paper", "paper", "pF", 0.3},
+                                {"{p,F,J}, paper", "paper", "pFJ", 0.3},
+                                {"{p,F,H,J}, paper", "paper", "pFHJ", 0.3},
+                                {"{p,F}, no filter", "filtered", "pF", 0.3},
+                                {"{p,F}, filter", "filtered", "pF", 0.45}};
   pin_to(1);
   std::vector<std::unique_ptr<Formulation>> formulations;
   std::vector<double> cpu(std::size(choices), std::numeric_limits<double>::infinity());
   int const side = std::min(options.particles_per_side, 40);
   for (auto const& choice : choices) {
-    Assembly assembly = spinning_cube(side, "filtered", 0, report.backend);
+    Assembly assembly = spinning_cube(side, choice.scheme, 0, report.backend);
     assembly.formulations[0].words["variables"] = choice.variables;
-    assembly.formulations[0].words["volumetric_filter"] = choice.filter;
+    assembly.materials = {rubber(choice.poissons_ratio)};
     report.variables_particles = static_cast<long>(assembly.particles.size());
     formulations.push_back(make_formulation(assembly));
     report.variables.push_back({choice.name, mean_neighbours(*formulations.back(), assembly.particles.size())});
@@ -148,7 +151,7 @@ void measure_rates(BenchReport& report, BenchOptions const& options) {
   constexpr BenchmarkCase subjects[] = {{"paper, regular lattice", "paper", 0, false, true},
                                         {"paper, jittered (lists)", "paper", 0.2, false, false},
                                         {"paper, packed ball, h = dx", "paper", 0, false, false, true},
-                                        {"robust, regular lattice", "robust", 0, false, false},
+                                        {"filtered, regular lattice", "filtered", 0, false, false},
                                         {"paper, plain scalar path", "paper", 0, true, false}};
   bool const has_scalar = jst_sph::find_backend("scalar") != nullptr;
   for (auto const& subject : subjects) {
@@ -269,7 +272,7 @@ std::string column_text(BenchReport const& report) {
 
 std::string variables_text(BenchReport const& report) {
   std::string text = fmt::format(
-      "\nunknowns and filter, default scheme, {} particles, one thread\n"
+      "\nunknowns and filter, {} particles, one thread\n"
       "{:<28} {:>6} {:>26} {:>24}\n",
       report.variables_particles, "", "pairs", "M right-hand sides/cpu s", "time per right-hand side");
   for (auto const& row : report.variables)

@@ -37,18 +37,6 @@ void update_deformation(BodyState& body) {
   with_step<Step>(body, [](auto one_step) { one_step.update_deformation(); });
 }
 
-void observe_energy(BodyState& body) {
-  with_step<VerletStep>(body, [](auto one_step) { one_step.observe_energy(); });
-}
-
-void commit(BodyState& body, double dt) {
-  switch (body.dimension) {
-    case 1: return commit_solid<1>(body, dt);
-    case 2: return commit_solid<2>(body, dt);
-    default: return commit_solid<3>(body, dt);
-  }
-}
-
 void update_wave_speed(BodyState& body) {
   switch (body.dimension) {
     case 1: return compute_wave_speed<1>(body);
@@ -68,7 +56,7 @@ double largest_wave_speed(BodyState& body) {
 /// The entry by which the host finds this instruction set.
 extern Backend const backend;
 Backend const backend{
-    PIOLA_BACKEND_NAME,    lane_count, &step,           &update_wave_speed, &largest_wave_speed, &update_deformation,
-    &exec::run_fma_chains, &commit,    &observe_energy, &exec::copy};
+    PIOLA_BACKEND_NAME,  lane_count,          &step,      &update_wave_speed,
+    &largest_wave_speed, &update_deformation, &exec::run_fma_chains, &exec::copy};
 
 }  // namespace piola::jst_sph::inline PIOLA_MACHINE
