@@ -144,6 +144,21 @@ std::optional<std::string> law_name(Section const& section, std::optional<Librar
   return std::nullopt;
 }
 
+/// Reports settings of earlier versions. Returns their keys.
+std::vector<std::string> refuse_removed(Section const& section, std::span<RemovedSetting const> removed) {
+  std::vector<std::string> keys;
+  for (RemovedSetting const& setting : removed) {
+    Node const* const node = section.node().find(setting.key);
+    if (node == nullptr || (!setting.word.empty() && node->text != setting.word)) continue;
+    std::string const what = "body.formulation." + std::string(setting.key);
+    section.problems().add(node->place, setting.word.empty() ? fmt::format("{} was removed - {}", what, setting.advice)
+                                                             : fmt::format("{} = {} was removed - {}", what,
+                                                                           in_quotes(setting.word), setting.advice));
+    keys.emplace_back(setting.key);
+  }
+  return keys;
+}
+
 }  // namespace
 
 void read_material(Section const& section, BodySpec& body) {
@@ -165,22 +180,6 @@ void read_formulation_formulas(Section const& section, std::span<FormulaInfo con
     if (auto formula = read_formula(value, "", known, section.problems()))
       spec.formulas.emplace(info.name, std::move(*formula));
   }
-}
-
-/// Reports settings of earlier versions. Returns their keys.
-std::vector<std::string> refuse_removed(Section const& section, std::span<RemovedSetting const> removed) {
-  std::vector<std::string> keys;
-  for (RemovedSetting const& setting : removed) {
-    Node const* const node = section.node().find(setting.key);
-    if (node == nullptr || (!setting.word.empty() && node->text != setting.word)) continue;
-    std::string const what = "body.formulation." + std::string(setting.key);
-    section.problems().add(node->place, setting.word.empty()
-                                            ? fmt::format("{} was removed - {}", what, setting.advice)
-                                            : fmt::format("{} = {} was removed - {}", what, in_quotes(setting.word),
-                                                          setting.advice));
-    keys.emplace_back(setting.key);
-  }
-  return keys;
 }
 
 FormulationSpec read_formulation(Section const& section, Names const& names) {

@@ -29,7 +29,7 @@ bool invert_moments(double const* A, double* K) {
 }  // namespace
 
 void ReferenceLists::build(ParticleSet const& set, ParticleOrder const& order, std::vector<BodyConstants> const& bodies,
-                          std::vector<Range> const& own, Fields& fields, Settings const& settings, int lanes) {
+                           std::vector<Range> const& own, Fields& fields, Settings const& settings, int lanes) {
   *this = {};
   particles_ = static_cast<Index>(set.size());
   own_ = own;

@@ -87,8 +87,8 @@ CommPattern JstBody::comm_pattern() const {
     talk.messages.emplace_back();
     for (Told const& t : parts) talk.messages.back().push_back({t.far ? far : near, t.count});
   }
-  // Verlet: sums of motion and of forces; Runge-Kutta: of forces in both stages. With them go the largest wave speed and
-  // the first failure, unless volumes fail later.
+  // Verlet: sums of motion and of forces; Runge-Kutta: of forces in both stages. With them go the largest wave speed
+  // and the first failure, unless volumes fail later.
   talk.collectives = 2 + (options_.smoothed_volume() ? 1 : 0);
   return talk;
 }

@@ -34,7 +34,8 @@ struct KernelSums {
 /// One pass of the filter S, symmetric and doubly stochastic in the tributary volumes:
 ///   (S f)_a = f_a (1 - sum_{b != a} s_ab V_b) + sum_{b != a} s_ab V_b f_b,   s_ab = d_a W_ab d_b,
 /// of an input that is given as f and, for neighbours, as g = d V f; the output in both forms. The last pass of B also
-/// turns its output, the filtered volume ratio Jf, into the pressure q = kappa_f (Jf - 1), and gives that to neighbours.
+/// turns its output, the filtered volume ratio Jf, into the pressure q = kappa_f (Jf - 1), and gives that to
+/// neighbours.
 template <class Loader>
 struct Smooth {
   Loader loader;
@@ -68,8 +69,7 @@ class Filter {
   /// The source of the first pass is buffer 0, with valid ghosts; every pass reads one buffer and writes the other.
   void operator()() const {
     constexpr int n = filter_passes;
-    for (int k = 0; k < n; ++k)
-      smooth(k, k == 0 ? b_.volume_ratio : b_.filtered_ratio, b_.filtered_ratio, k == n - 1);
+    for (int k = 0; k < n; ++k) smooth(k, k == 0 ? b_.volume_ratio : b_.filtered_ratio, b_.filtered_ratio, k == n - 1);
     for (int k = n; k < 2 * n; ++k) smooth(k, b_.filtered_pressure, b_.filtered_pressure, false);
   }
 

@@ -107,20 +107,9 @@ Diagnostics finish(JstObservation o) {
 
 namespace {
 
-constexpr std::array<std::string_view, 14> offered{"Displacement",
-                                                   "Position",
-                                                   "Velocity",
-                                                   "Momentum",
-                                                   "Pressure",
-                                                   "CauchyStress",
-                                                   "FirstPiolaStress",
-                                                   "DeformationGradient",
-                                                   "Jacobian",
-                                                   "VonMisesStress",
-                                                   "Density",
-                                                   "Neighbours",
-                                                   "Body",
-                                                   "Id"};
+constexpr std::array<std::string_view, 14> offered{
+    "Displacement",        "Position", "Velocity",       "Momentum", "Pressure",   "CauchyStress", "FirstPiolaStress",
+    "DeformationGradient", "Jacobian", "VonMisesStress", "Density",  "Neighbours", "Body",         "Id"};
 
 ParticleOutput motion_of(JstBody const& body, Index i) {
   ParticleOutput p;

@@ -10,8 +10,8 @@
 namespace piola::jst_sph {
 namespace {
 
-constexpr std::array<std::string_view, 5> hyperelastic_laws{
-    "linear_elastic", "neo_hookean", "mooney_rivlin", "saint_venant_kirchhoff", "compressible_neo_hookean"};
+constexpr std::array<std::string_view, 5> hyperelastic_laws{"linear_elastic", "neo_hookean", "mooney_rivlin",
+                                                            "saint_venant_kirchhoff", "compressible_neo_hookean"};
 constexpr std::array<std::string_view, 4> variable_words{"pF", "pFJ", "pFHJ", "displacement"};
 constexpr std::array<std::string_view, 2> scheme_words{"filtered", "paper"};
 constexpr std::array<std::string_view, 2> switch_words{"on", "off"};

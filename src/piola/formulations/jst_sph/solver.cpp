@@ -24,7 +24,8 @@ class Solver final : public Formulation {
   /// Fraction of the stability limit that is used: power iterations come from below.
   static constexpr double margin = 0.85;
   /// The first step takes this fraction of the limit and each further one may be longer by `growth`: a violent start,
-  /// and jumps of the step, would excite the modes near the limit and let the energy of a sample exceed the earlier one.
+  /// and jumps of the step, would excite the modes near the limit and let the energy of a sample exceed the earlier
+  /// one.
   static constexpr double first_share = 0.05, growth = 1.08;
 
  public:

@@ -141,11 +141,11 @@ struct BodyState {
 struct Backend {
   char const* name;
   int lanes;
-  void (*step)(BodyState& body, double dt);          ///< Algorithm 1, one step of one body
-  void (*update_wave_speed)(BodyState& body);        ///< from the current F
-  double (*largest_wave_speed)(BodyState& body);     ///< m/s
-  void (*update_deformation)(BodyState& body);       ///< displacement variables: F from x
-  double (*run_fma_chains)(long rounds);             ///< for benchmarks, see exec/peak_memory.hpp
+  void (*step)(BodyState& body, double dt);       ///< Algorithm 1, one step of one body
+  void (*update_wave_speed)(BodyState& body);     ///< from the current F
+  double (*largest_wave_speed)(BodyState& body);  ///< m/s
+  void (*update_deformation)(BodyState& body);    ///< displacement variables: F from x
+  double (*run_fma_chains)(long rounds);          ///< for benchmarks, see exec/peak_memory.hpp
   void (*copy)(double const* from, double* to, Index n);
 };
 

@@ -92,14 +92,8 @@ class VerletStep {
 
   template <class Law>
   WeightStress<D, Law> stress_pass(Law const& law) {
-    return {law,
-            b_.constants,
-            read_reference(b_.C),
-            read_reference(b_.V),
-            read(b_.F),
-            read(b_.volume_ratio),
-            read(b_.filtered_pressure),
-            write(b_.A)};
+    return {law,        b_.constants,          read_reference(b_.C),       read_reference(b_.V),
+            read(b_.F), read(b_.volume_ratio), read(b_.filtered_pressure), write(b_.A)};
   }
   void weight_stress() {
     with_law(b_.material, [&](auto const& law) { exec::for_each(b_.slots, stress_pass(law)); });

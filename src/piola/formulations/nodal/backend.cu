@@ -48,6 +48,7 @@ void launch_all(Range r, void const* passes, exec::Scratch const& scratch) {
   launch_each<SumForces<D>>(r, passes);
   launch_lattice<D>(r, passes, scratch);
   launch_sweep<ProjectQuadratic<D>>(r, passes, scratch);
+  launch_sweep<SubtractGradients<D>>(r, passes, scratch);
   launch_each<KickAndDrift<D>>(r, passes);
   launch_each<Kick<D>>(r, passes);
   launch_each<CopyMotion<D>>(r, passes);
