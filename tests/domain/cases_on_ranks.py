@@ -95,7 +95,7 @@ end = "1 ms"
 name = "plate"
 shape = { box = { min = ["0 mm", "0 mm"], max = ["40 mm", "20 mm"] }, spacing = "1 mm" }
 material = { name = "copper_ofhc", damage = "none" }
-formulation = { name = "jst_sph" }
+formulation = { name = "nodal" }
 initial_velocity = ["5000*X", "0"]
 """ + probe("ahead", "plate", "stress_intensity", 'at = ["10 mm", "10 mm"]\nfrom = "1 mm"\nto = "20 mm"') + probe(
     "hole", "plate", "hole", 'axis = "x"\nat = ["0 mm", "10 mm"]\nslab_from = "5 mm"\nslab_to = "9 mm"') + probe(
@@ -194,7 +194,7 @@ end = "2 ms"
 name = "ball"
 shape = { sphere = { centre = ["0 mm", "0 mm", "0 mm"], radius = "20 mm" }, spacing = "19 mm", jitter = 0.3 }
 material = { law = "neo_hookean", density = 1100, youngs_modulus = "5 MPa", poissons_ratio = 0.45 }
-formulation = { name = "jst_sph", scheme = "robust" }
+formulation = { name = "jst_sph", scheme = "paper", gradient_support = 0.8 }
 initial_velocity = ["40*Y", "-40*X", "0"]
 [[support]]
 body = "ball"

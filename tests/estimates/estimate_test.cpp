@@ -37,11 +37,6 @@ TEST(Estimate, StepsOfAGentleStartAreCounted) {
   rule.growth = 2;
   run.end = 10.875;
   EXPECT_EQ(steps_of(rule, run), 13);
-  // Slower from 0.3 s on: 1/8 + 1/4 + 1/2 + 3/4 and then whole steps: 1.625 in four.
-  rule.late_growth = 1.5;
-  rule.late_from = 0.3;
-  run.end = 11.625;
-  EXPECT_EQ(steps_of(rule, run), 14);
   run.max_step = 0.25;
   run.end = 1.125;
   EXPECT_EQ(steps_of(rule, run), 5);

@@ -3,7 +3,7 @@
 #include "piola/materials/hypoelastic_registry.hpp"
 #include "formulations/small_bodies.hpp"
 
-/// The metal that tests of solids in rate form take, and what it should do.
+/// The metal of tests of solids in rate form, and its expected response.
 namespace piola::testing::metals {
 
 inline constexpr double rho0 = 8930, E = 117e9, nu = 0.35, yield = 400e6, hardening = 100e6;

@@ -36,8 +36,9 @@ inline MaterialParameters rubber(std::string_view law = "neo_hookean", double po
 inline Assembly assemble(ParticleSet set, MaterialParameters const& m = rubber()) {
   Assembly a;
   a.materials.assign(set.bodies.size(), m);
-  // The Runge-Kutta scheme, whose orders and balances most tests state; tests of the default scheme choose it.
-  a.formulations.assign(set.bodies.size(), FormulationSpec{"jst_sph", {}, {{"scheme", "robust"}}});
+  // The Runge-Kutta scheme, whose orders and balances most tests state, with a compact gradient.
+  a.formulations.assign(set.bodies.size(),
+                        FormulationSpec{"jst_sph", {{"gradient_support", 0.8}}, {{"scheme", "paper"}}});
   a.particles = std::move(set);
   return a;
 }

@@ -65,6 +65,13 @@ TEST(CaseMessages, UnknownLawsAndFormulationsListWhatThereIs) {
       "one of these");
 }
 
+TEST(CaseMessages, SettingsOfEarlierVersionsSayWhatToDoInstead) {
+  EXPECT_EQ(message_of(sample_with("variables = \"pF\"", "scheme = \"robust\", local_bulk = 2")),
+            "case.toml:11:44: body.formulation.scheme = \"robust\" was removed - take scheme = \"filtered\", or the "
+            "formulation nodal\n"
+            "case.toml:11:67: body.formulation.local_bulk was removed - leave it out, the scheme sets it");
+}
+
 TEST(CaseMessages, RegionsThatSelectNothingSayWhereTheBodyIs) {
   EXPECT_EQ(message_of(sample_with("Y <= 0", "Y < 0")),
             "case.toml:16:9: support.where, formula \"Y < 0\" selects no particle of body \"column\" (its particles "

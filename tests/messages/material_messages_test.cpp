@@ -12,19 +12,17 @@ using test::sample_with;
 constexpr std::string_view rubber =
     R"(material = { law = "neo_hookean", density = "1100 kg/m^3", youngs_modulus = "17 MPa", poissons_ratio = 0.45 })";
 
-/// The sample case with another material.
-std::string message_with(std::string const& keys) {
-  return message_of(sample_with(rubber, "material = { " + keys + " }"));
+/// The sample case with another material and formulation.
+std::string message_with(std::string const& keys, std::string const& formulation = "nodal") {
+  std::string const text = sample_with(rubber, "material = { " + keys + " }");
+  return message_of(test::replaced(text, R"(name = "jst_sph", variables = "pF", eps4_momentum = 0.125)",
+                                   "name = \"" + formulation + "\""));
 }
 /// The same under Taylor-SPH, which takes none of the solids.
-std::string taylor_message_with(std::string const& keys) {
-  std::string const text = sample_with(rubber, "material = { " + keys + " }");
-  return message_of(
-      test::replaced(text, R"(name = "jst_sph", variables = "pF", eps4_momentum = 0.125)", R"(name = "taylor_sph")"));
-}
+std::string taylor_message_with(std::string const& keys) { return message_with(keys, "taylor_sph"); }
 std::string not_for_taylor(std::string const& law) {
   return "case.toml:10:12: the formulation \"taylor_sph\" cannot use the law \"" + law +
-         "\" (allowed: linear_elastic) - change body.material.law";
+         "\" (allowed: linear_elastic) - change body.material.law or body.formulation (adaptle, nodal can use it)";
 }
 
 TEST(MaterialMessages, NumbersOfAnotherWordSayWhichWordTheyNeed) {

@@ -47,15 +47,10 @@ TEST_P(Conservation, OfBothMomentaHoldsToRoundOffForAFreeSpinningCube) {
 
 TEST_P(Conservation, OfAngularMomentumFailsWithoutItsProjection) {
   auto const f = make_formulation(spinning_cube(GetParam(), "off"));
-  EXPECT_GT(drift(*f, 200).angular, 1e-4);  // 0.09 % (filtered), 1 % (robust) and 19 % (paper) were seen
+  EXPECT_GT(drift(*f, 200).angular, 1e-4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Schemes, Conservation, ::testing::Values("filtered", "robust", "paper"));
-TEST(ConservativeScheme, KeepsBothMomentaOfAFreeSpinningCube) {
-  Drift const d = drift(*make_formulation(spinning_cube("conservative", "on")), 200);
-  EXPECT_LT(d.linear, 1e-12);
-  EXPECT_LT(d.angular, 1e-12);
-}
+INSTANTIATE_TEST_SUITE_P(Schemes, Conservation, ::testing::Values("filtered", "paper"));
 
 TEST(Conservation, HoldsInOneAndTwoDimensionsAndOnIrregularParticles) {
   for (int dimension = 1; dimension <= 3; ++dimension)
@@ -75,8 +70,9 @@ TEST(Conservation, OfLinearMomentumNeedsNoProjectionForTheAdjointForm) {
   for (double const jitter : {0.0, 0.2}) {
     Assembly a = tumbling_box(3, 6, jitter);
     choose(a, "angular_momentum_projection", "off");
+    choose(a, "scheme", "filtered");
     EXPECT_LT(drift(*make_formulation(a), 50).linear, 1e-12);
-    choose(a, "biharmonic", "literal");
+    choose(a, "scheme", "paper");
     if (jitter > 0) {
       EXPECT_GT(drift(*make_formulation(a), 50).linear, 1e-8);
     }

@@ -86,18 +86,15 @@ double slowness(std::string const& backend) {
   return factors.back().second;
 }
 
-/// Whether jst_sph filters the volumetric energy, as far as given by the case.
+/// Whether jst_sph filters the volumetric energy.
 bool is_filtered(BodySpec const& body) {
   FormulationSpec const& spec = body.formulation;
-  auto const word = [&](std::string_view key, std::string_view standard) {
+  auto const is = [&](std::string_view key, std::string_view word) {
     auto const found = spec.words.find(key);
-    return found == spec.words.end() ? standard : std::string_view(found->second);
+    return found != spec.words.end() && found->second == word;
   };
-  if (spec.name != "jst_sph") return false;
-  if (word("volumetric_filter", "as_scheme") != "as_scheme") return word("volumetric_filter", "") == "on";
   auto const law = find_law(body.law);
-  std::string_view const scheme = word("scheme", "conservative");
-  return (scheme == "conservative" || scheme == "filtered") && word("variables", "pF") != "displacement" && law &&
+  return spec.name == "jst_sph" && !is("scheme", "paper") && !is("variables", "displacement") && law &&
          law->volumetric_split && poissons_ratio_of(body.material) > 0.4499;
 }
 
@@ -296,8 +293,7 @@ std::int64_t steps_of(StepEstimate const& rule, RunSpec const& run, double time,
   double step = std::min(last, most), steps = 0;
   while (rule.growth > 1 && step < most && time + step < run.end) {
     time += step;
-    double const growth = rule.late_growth > 1 && step > rule.late_from ? rule.late_growth : rule.growth;
-    step = std::min(growth * step, most);
+    step = std::min(rule.growth * step, most);
     ++steps;
   }
   // As the main loop: a rest of less than a millionth of a step is taken along.

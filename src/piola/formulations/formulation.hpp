@@ -76,8 +76,6 @@ struct StepEstimate {
   double settled = 0;       ///< s, the step once the run has settled
   double first = 0;         ///< s
   double growth = 1;        ///< a step may be longer than the one before by this factor; 1: no bound
-  double late_growth = 0;   ///< growth once a step is longer than `late_from`; 0: unchanged
-  double late_from = 0;     ///< s
   std::string limit;        ///< what limits the step, in words
   double more_stages = 0;   ///< mean number of right-hand sides per step in addition to stages_per_step
   double setup_stages = 0;  ///< right-hand sides before the first step

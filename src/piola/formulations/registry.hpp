@@ -26,6 +26,12 @@ struct FormulaInfo {
   std::span<std::string_view const> variables;  ///< allowed in addition to X, Y, Z, t
 };
 
+/// A key of earlier versions, or one word of a key that remains; refused with the advice.
+struct RemovedSetting {
+  std::string_view key, word;  ///< word: empty for the whole key
+  std::string_view advice;     ///< what to do instead
+};
+
 /// Description of a formulation for the case reader, `piola describe` and the manual.
 struct FormulationInfo {
   std::string_view name;                   ///< key `formulation.name` of a case file
@@ -48,6 +54,7 @@ struct FormulationInfo {
   /// observes alone.
   bool observes_locally = false;
   std::span<FormulaInfo const> formulas = {};  ///< optional formulas
+  std::span<RemovedSetting const> removed = {};
 };
 
 std::span<FormulationInfo const> formulations();

@@ -96,11 +96,17 @@ std::optional<std::array<Expression, 9>> read_gradient(Section const& section, B
 void check_law(Section const& section, BodySpec const& body) {
   auto const formulation = find_formulation(body.formulation.name);
   if (!formulation || body.law.empty()) return;
-  auto const& usable = formulation->laws;
-  if (std::find(usable.begin(), usable.end(), std::string_view(body.law)) != usable.end()) return;
+  auto const is_usable = [&](std::span<std::string_view const> laws) {
+    return std::find(laws.begin(), laws.end(), std::string_view(body.law)) != laws.end();
+  };
+  if (is_usable(formulation->laws)) return;
+  std::vector<std::string_view> able;
+  for (FormulationInfo const& other : formulations())
+    if (is_usable(other.laws)) able.push_back(other.name);
   section.problems().add(section.place_of("material"),
                          "the formulation " + in_quotes(body.formulation.name) + " cannot use the law " +
-                             in_quotes(body.law) + " (allowed: " + joined(usable) + ") - change body.material.law");
+                             in_quotes(body.law) + " (allowed: " + joined(formulation->laws) +
+                             ") - change body.material.law or body.formulation (" + joined(able) + " can use it)");
 }
 
 /// Places of what a table holds, as "material.density".

@@ -144,6 +144,21 @@ std::optional<std::string> law_name(Section const& section, std::optional<Librar
   return std::nullopt;
 }
 
+/// Reports settings of earlier versions. Returns their keys.
+std::vector<std::string> refuse_removed(Section const& section, std::span<RemovedSetting const> removed) {
+  std::vector<std::string> keys;
+  for (RemovedSetting const& setting : removed) {
+    Node const* const node = section.node().find(setting.key);
+    if (node == nullptr || (!setting.word.empty() && node->text != setting.word)) continue;
+    std::string const what = "body.formulation." + std::string(setting.key);
+    section.problems().add(node->place, setting.word.empty() ? fmt::format("{} was removed - {}", what, setting.advice)
+                                                             : fmt::format("{} = {} was removed - {}", what,
+                                                                           in_quotes(setting.word), setting.advice));
+    keys.emplace_back(setting.key);
+  }
+  return keys;
+}
+
 }  // namespace
 
 void read_material(Section const& section, BodySpec& body) {
@@ -175,16 +190,16 @@ FormulationSpec read_formulation(Section const& section, Names const& names) {
   if (!name) return spec;
   spec.name = *name;
   FormulationInfo const info = *find_formulation(*name);
-  std::vector<std::string> keys;
+  std::vector<std::string> keys, removed = refuse_removed(section, info.removed);
   for (Parameter const& parameter : info.parameters) {
     keys.emplace_back(parameter.name);
     auto const number = read_parameter(section.node(), "body.formulation", parameter, section.problems());
     if (number) spec.numbers.emplace(parameter.name, *number);
   }
   for (Choice const& choice : info.choices) {
-    keys.emplace_back(choice.name);
     Node const* const node = section.node().find(choice.name);
-    if (node == nullptr) continue;
+    keys.emplace_back(choice.name);
+    if (node == nullptr || std::find(removed.begin(), removed.end(), choice.name) != removed.end()) continue;
     Value const word{*node, "body.formulation." + std::string(choice.name)};
     if (auto const text = read_word(word, to_strings(choice.allowed), section.problems())) {
       spec.words.emplace(choice.name, *text);
@@ -192,7 +207,7 @@ FormulationSpec read_formulation(Section const& section, Names const& names) {
   }
   read_formulation_formulas(section, info.formulas, names, spec);
   for (FormulaInfo const& formula : info.formulas) keys.emplace_back(formula.name);
-  section.refuse_unknown(keys);
+  section.refuse_unknown(keys, removed);
   return spec;
 }
 

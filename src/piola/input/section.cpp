@@ -164,12 +164,15 @@ std::optional<std::vector<double>> Section::point(std::string_view key) const {
   return numbers;
 }
 
-void Section::refuse_unknown(std::vector<std::string> const& more) const {
+void Section::refuse_unknown(std::vector<std::string> const& more, std::vector<std::string> const& reported) const {
   std::vector<std::string> known;
   for (KeyInfo const& info : keys_of(section_)) known.emplace_back(info.key);
   known.insert(known.end(), more.begin(), more.end());
   for (Node::Entry const& entry : node_.entries) {
-    if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
+    auto const has = [&](std::vector<std::string> const& keys) {
+      return std::find(keys.begin(), keys.end(), entry.key) != keys.end();
+    };
+    if (has(known) || has(reported)) continue;
     std::string const where = section_.empty() ? "a case" : section_;
     problems_.add(entry.place, in_quotes(entry.key) + " is not a key of " + where + " (allowed: " + joined(known) +
                                    ") - " + advice_for_key(entry.key, known));

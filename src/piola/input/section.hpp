@@ -73,8 +73,8 @@ class Section {
   std::string name_of(std::string_view key) const;
   KeyInfo const& info_of(std::string_view key) const;
 
-  /// Reports the keys that are neither in the table of keys nor in `more`.
-  void refuse_unknown(std::vector<std::string> const& more = {}) const;
+  /// Reports the keys that are neither in the table of keys nor in `more`, except those `reported` already.
+  void refuse_unknown(std::vector<std::string> const& more = {}, std::vector<std::string> const& reported = {}) const;
   /// Reports a missing required key; `about` and `example` are texts for the message.
   void report_missing(std::string_view key, std::string_view about, std::string_view example) const;
   /// Reports a key that has no meaning here, if it is given.

@@ -135,4 +135,4 @@ void with_any_law(MaterialParameters const& material, F const& f) {
   with_solid(material, f);
 }
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

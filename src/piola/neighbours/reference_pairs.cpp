@@ -320,13 +320,12 @@ void ReferencePairs::correct(ParticleSet const& set, Body const& body, SlotOrder
   c.beta.assign(places, 0);
   c.diagonal.assign(places, 0);
   c.neighbours.assign(places, 0);
-  std::vector<double> moment(places, 0);
   auto const first_refused = [&](std::size_t n, auto const& slot_of) {
     std::vector<char> good(n, 1);
     exec_host::parallel_for(static_cast<Index>(n), [&](Index k) {
       TooFewNeighbours refusal;
       auto const at = static_cast<std::size_t>(k);
-      if (slot_of(at) != absent) good[at] = correct(slot_of(at), at, moment[at], refusal) ? 1 : 0;
+      if (slot_of(at) != absent) good[at] = correct(slot_of(at), at, refusal) ? 1 : 0;
     });
     auto const bad = std::find(good.begin(), good.end(), 0);
     return bad == good.end() ? absent : static_cast<Index>(bad - good.begin());
@@ -338,7 +337,7 @@ void ReferencePairs::correct(ParticleSet const& set, Body const& body, SlotOrder
     auto const at = static_cast<std::size_t>(refused);
     Index const a = regular_ ? stands_for[at] : own_.first + refused;
     TooFewNeighbours refusal;
-    correct(a, at, moment[at], refusal);
+    correct(a, at, refusal);
     auto const id = order.id[static_cast<std::size_t>(a)];
     auto const& X = set.X[static_cast<std::size_t>(id)];
     throw InputError(fmt::format(
@@ -346,10 +345,9 @@ void ReferencePairs::correct(ParticleSet const& set, Body const& body, SlotOrder
         "dimension{} (they must span every direction) - use more particles across the body or a larger support",
         body.name, id, X[0], X[1], X[2], refusal.found, refusal.operation, dimension_, dimension_ == 1 ? "" : "s"));
   }
-  for (double const m : moment) c.largest_moment = std::max(c.largest_moment, m);
 }
 
-bool ReferencePairs::correct(Index a, std::size_t at, double& moment, TooFewNeighbours& refusal) {
+bool ReferencePairs::correct(Index a, std::size_t at, TooFewNeighbours& refusal) {
   double const h = options_.h_laplacian > 0 ? options_.h_laplacian : options_.h_gradient;
   Moments m;
   auto const each = [&](auto const& f) { regular_ ? visit_kind(a, at, f) : visit(a, f); };
@@ -372,7 +370,6 @@ bool ReferencePairs::correct(Index a, std::size_t at, double& moment, TooFewNeig
   });
   corrections_.neighbours[at] = m.all;
   corrections_.G[at] = {m.G[0], m.G[1], m.G[2]};
-  moment = (m.M[0] + m.M[1] + m.M[2]) / dimension_;
   auto& C = corrections_.C[at];
   bool const spans = dimension_ == 3 ? invert<3>(m, C) : dimension_ == 2 ? invert<2>(m, C) : invert<1>(m, C);
   refusal = {m.inner, "gradient"};

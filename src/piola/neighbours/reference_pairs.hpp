@@ -51,7 +51,6 @@ struct Corrections {
   std::vector<double> diagonal;  ///< sum (l + alpha.r + beta r.r)
   std::vector<int> neighbours;
   int neighbours_of(Index slot) const { return neighbours[at(slot)]; }
-  double largest_moment = 0;  ///< largest trace of M_a over the dimension: with it sum s r (x) r is about I inside
 };
 
 /// Neighbours of the particles of one body in the reference configuration, and the tables that loops use.
@@ -78,14 +77,6 @@ class ReferencePairs {
     std::function<void(double&)> allreduce_max;      ///< allreduce of the maximum
   };
   Filter make_filter(std::vector<double> const& volume, FilterShare const* share = nullptr) const;
-  /// Corrected gradient of the corrected kernel (Lee et al. eq. 23), for tables with a kernel and one support:
-  ///   GRAD f_a = sum_b (f_b - f_a) (x) (s r - V W gamma_a) C_a,  gamma_a = sum V grad W / sum V W, b = a included.
-  struct CorrectedKernel {
-    std::vector<std::array<double, 3>> gamma;  ///< per slot [1/m]
-    std::vector<std::array<double, 9>> C;      ///< row by row, not symmetric
-    double at_zero = 0;                        ///< V W(0)
-  };
-  CorrectedKernel correct_kernel() const;
   /// Releases all data except the tables and the numbers of neighbours. No other member may be called afterwards.
   void keep_tables();
   std::size_t bytes() const;
@@ -125,7 +116,7 @@ class ReferencePairs {
   struct TooFewNeighbours;
   void correct(ParticleSet const& set, Body const& body, SlotOrder const& order);
   /// Finds the corrections stored at `at`, for the particle in slot a. Returns false if its neighbours are too few.
-  bool correct(Index a, std::size_t at, double& moment, TooFewNeighbours& refusal);
+  bool correct(Index a, std::size_t at, TooFewNeighbours& refusal);
   void make_stencils();
   void make_list();
 

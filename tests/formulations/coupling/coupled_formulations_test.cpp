@@ -132,7 +132,7 @@ TEST(CoupledFormulations, AddsUpWhatItsPartsHave) {
   auto const named = [&](std::string_view name) {
     return std::count_if(d.more.begin(), d.more.end(), [&](auto const& column) { return column.first == name; });
   };
-  EXPECT_EQ(named("plastic_work"), 1) << "of jst_sph and adaptle";
+  EXPECT_EQ(named("plastic_work"), 1) << "of nodal and adaptle";
   EXPECT_EQ(named("cell_jacobian_min"), 1) << "of nodal";
 }
 

@@ -17,7 +17,7 @@ class EveryLaw : public ::testing::TestWithParam<LawInfo> {
   Assembly tumbling(std::string const& variables) const {
     Assembly a = tumbling_box(3, 6);
     a.materials.assign(1, rubber(GetParam().name));
-    choose(a, "scheme", "filtered");
+    choose(a, "scheme", variables == "pF" ? "filtered" : "paper");
     choose(a, "variables", variables);
     if (GetParam().name == "linear_elastic")
       for (auto& v : a.initial_velocity)
@@ -44,7 +44,7 @@ TEST_P(EveryLaw, GivesTheSameMotionOnEveryMachine) {
   }
 }
 
-/// Without stabilisation and projection Verlet's energy error is of second order in the step.
+/// Without stabilisation and projection the energy error is of second order in the step, or better.
 TEST_P(EveryLaw, KeepsTheEnergyThatItStores) {
   for (auto const* variables : {"pF", "pFJ", "pFHJ"}) {
     Assembly a = tumbling(variables);
@@ -97,7 +97,7 @@ TEST_P(EveryKernel, DeformsUniformlyWithALinearVelocity) {
 
 /// Kernels differ by the error in space alone: bodies of 9 particles a side move alike.
 TEST_P(EveryKernel, TumblesAsWithTheCubicSpline) {
-  for (auto const* scheme : {"filtered", "robust", "paper"}) {
+  for (auto const* scheme : {"filtered", "paper"}) {
     auto const run = [&](Assembly const& a) {
       auto const f = make_formulation(a);
       double time = 0;

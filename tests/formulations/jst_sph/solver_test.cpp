@@ -96,7 +96,7 @@ TEST_P(HeldParticles, NeverMoveInTheDirectionsThatAreHeld) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, HeldParticles,
-                         ::testing::Combine(::testing::Values("conservative", "filtered", "robust", "paper"),
+                         ::testing::Combine(::testing::Values("filtered", "paper"),
                                             ::testing::Values("pF", "displacement")));
 
 TEST(HeldParticles, StayWhereTheInitialDisplacementPutThem) {

@@ -70,12 +70,12 @@ TEST(StabilityMonitor, FindsTheLimitOfADeformedBody) {
   }
 }
 
-/// `exact`: rho0 c^2 = the largest second derivative of the energy in a principal stretch, here by differences.
-TEST(WaveSpeed, ExactIsTheTangentInThePrincipalDirections) {
-  for (auto const* law : {"neo_hookean", "linear_elastic"}) {
+/// Laws without an isochoric part: rho0 c^2 = the largest second derivative of the energy in a principal stretch, here
+/// by differences.
+TEST(WaveSpeed, IsTheTangentInThePrincipalDirections) {
+  for (auto const* law : {"saint_venant_kirchhoff", "compressible_neo_hookean"}) {
     double const l[3] = {0.8, 1.3, 1.1};
     Assembly a = assemble(unit_box(3, 5), rubber(law, 0.4));
-    choose(a, "wave_speed", "exact");
     a.cfl = 0.3;
     displace(a, [&](Point const& X) { return Point{(l[0] - 1) * X[0], (l[1] - 1) * X[1], (l[2] - 1) * X[2]}; });
     double modulus = 0;
@@ -92,23 +92,6 @@ TEST(WaveSpeed, ExactIsTheTangentInThePrincipalDirections) {
     double const expected = 0.3 * a.particles.bodies[0].spacing[0] / std::sqrt(modulus / 1100);
     EXPECT_NEAR(make_formulation(a)->stable_time_step() / expected, 1, 1e-5) << law;
   }
-}
-
-// From 10,000 particles on a lattice gets fewer power iterations: its limit is that of all of them within 1 %.
-TEST(StabilityMonitor, MeasuresALargeLatticeFaster) {
-  auto const made = [](int n, double stretch) {
-    Assembly a = assemble(unit_box(2, n));
-    a.cfl = nan;
-    choose(a, "scheme", "conservative");
-    if (stretch > 0) displace(a, [&](Point const& X) { return Point{stretch * X[0], 0, 0}; });
-    return make_formulation(a);
-  };
-  auto const large = made(100, 0), small = made(99, 0), strained = made(100, 1e-9);
-  EXPECT_LT(large->step_estimate_of_run().setup_stages, 0.4 * small->step_estimate_of_run().setup_stages);
-  double const step = 99 * large->steady_time_step();
-  EXPECT_NEAR(step, 98 * small->steady_time_step(), 0.01 * step);
-  // One that starts deformed is measured as it starts, too.
-  EXPECT_NEAR(step, 99 * strained->steady_time_step(), 0.01 * step);
 }
 
 }  // namespace

@@ -186,12 +186,6 @@ TEST(NodalSetUp, RefusesBodiesOfTwoParticlesAcross) {
             0U);
 }
 
-TEST(NodalSetUp, RefusesADeformationGradientAsStart) {
-  Assembly a = nodal_body(unit_box(3, 4));
-  a.initial_deformation_gradient.assign(a.particles.X.size(), {1, 0, 0, 0, 1, 0, 0, 0, 1});
-  EXPECT_NE(refusal(a).find("takes the deformation from the positions"), std::string::npos);
-}
-
 TEST(NodalDoubts, AreAboutPressuresThatFollowAFaceAndVaryAlongIt) {
   auto const count = [](char const* pressure, bool follows, bool viscous) {
     Assembly a = nodal_body(brick(2, 0, {9, 5, 1}));

@@ -121,8 +121,8 @@ void ContactCoupling::sum_forces() {
   for (Index const k : loaded_indices_) forces_[static_cast<std::size_t>(k)] = {};
   forces_.resize(x_.size());
   loaded_indices_.clear();
-  std::set_union(system_.loaded_indices().begin(), system_.loaded_indices().end(), ties_.loaded_indices().begin(), ties_.loaded_indices().end(),
-                 std::back_inserter(loaded_indices_));
+  std::set_union(system_.loaded_indices().begin(), system_.loaded_indices().end(), ties_.loaded_indices().begin(),
+                 ties_.loaded_indices().end(), std::back_inserter(loaded_indices_));
   for (Index const k : system_.loaded_indices())
     forces_[static_cast<std::size_t>(k)] = system_.forces()[static_cast<std::size_t>(k)];
   ties_.add_forces(forces_);

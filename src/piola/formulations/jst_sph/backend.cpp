@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loops of JST-SPH for one machine; compiled once per instruction set (PIOLA_MACHINE).
+// The loops of JST-SPH for one machine; compiled once per instruction set (PIOLA_BACKEND).
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/jst_sph/step.hpp"
 #include "piola/formulations/jst_sph/verlet_step.hpp"
@@ -36,18 +36,6 @@ void update_deformation(BodyState& body) {
   with_step<Step>(body, [](auto one_step) { one_step.update_deformation(); });
 }
 
-void observe_energy(BodyState& body) {
-  with_step<VerletStep>(body, [](auto one_step) { one_step.observe_energy(); });
-}
-
-void commit(BodyState& body, double dt) {
-  switch (body.dimension) {
-    case 1: return commit_solid<1>(body, dt);
-    case 2: return commit_solid<2>(body, dt);
-    default: return commit_solid<3>(body, dt);
-  }
-}
-
 void update_wave_speed(BodyState& body) {
   switch (body.dimension) {
     case 1: return compute_wave_speed<1>(body);
@@ -66,7 +54,7 @@ double largest_wave_speed(BodyState& body) {
 
 /// The entry by which the host finds this instruction set.
 extern Backend const backend;
-Backend const backend{PIOLA_BACKEND_NAME,  lane_count,          &step,   &update_wave_speed,
-                      &largest_wave_speed, &update_deformation, &commit, &observe_energy};
+Backend const backend{PIOLA_BACKEND_NAME,  lane_count,         &step,
+                      &update_wave_speed, &largest_wave_speed, &update_deformation};
 
-}  // namespace piola::jst_sph::inline PIOLA_MACHINE
+}  // namespace piola::jst_sph::inline PIOLA_BACKEND

@@ -7,7 +7,7 @@
 #include "piola/domain/sum_over_slots.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/formulations/jst_sph/passes.hpp"
-#include "piola/materials/hypoelastic_registry.hpp"
+#include "piola/materials/laws.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -28,10 +28,10 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
       fields_(D_),
       boundary_(assembly, body, order_, images_.planes(), cloud(set)) {
   if (options_.filter && images_.skew())
-    throw InputError(fmt::format(
-        "body '{}': an antisymmetric mirror plane turns strains round, which the volumetric filter does not "
-        "know of - switch volumetric_filter off or take another support",
-        body_.name));
+    throw InputError(
+        fmt::format("body '{}': an antisymmetric mirror plane turns strains round, which the volumetric filter does not "
+                    "know of - take scheme = \"paper\" or another support",
+                    body_.name));
   make_pairs(set, backend);
   take_tables();
   share(backend.lanes);
@@ -41,20 +41,12 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
   if (shared()) mark_halo();
   fill_reference(backend.lanes);
   if (options_.filter) fill_filter();
-  if (options_.corrected_kernel()) fill_corrected_kernel(backend.lanes);
   pairs_->keep_tables();
   fill_initial(assembly, backend);
-  fill_solid(backend);
   boundary_.attach(state_);
   fill_evolved_geometry();
   backend.update_wave_speed(state_);
-  if (options_.integrator != Integrator::verlet) return;
-  state_.starting = true;
-  backend.step(state_, 0);  // the accelerations of the start
-  state_.starting = false;
-  if (!options_.hourglass()) return;
-  backend.observe_energy(state_);
-  state_.totals.viscous_work = hourglass_energy() + filtered_energy();
+  if (verlet()) backend.step(state_, 0);  // the accelerations of the start
 }
 
 void JstBody::make_pairs(ParticleSet const& set, Backend const& backend) {
@@ -62,9 +54,8 @@ void JstBody::make_pairs(ParticleSet const& set, Backend const& backend) {
   PairOptions pair;
   pair.kernel = options_.kernel;
   pair.h_gradient = options_.gradient_support * spacing;
-  bool const kernel_table = options_.filter || options_.corrected_kernel();
-  pair.h_laplacian = is_wide() ? options_.laplacian_support * spacing : 0;
-  pair.kernel_table = kernel_table;
+  pair.h_laplacian = stabilised() ? options_.laplacian_support * spacing : 0;
+  pair.kernel_table = options_.filter;
   pair.lanes = backend.lanes;
   // One lane at a time gains nothing from patterns: the portable path is the plain loop over a list.
   pair.stencils = backend.lanes > 1 && images_.empty();
@@ -98,7 +89,7 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
   auto& k = state_.constants;
   state_.material = material;
   double mu = 0, kappa = 0;
-  with_any_law(material, [&](auto const& law) {
+  with_law(material, [&](auto const& law) {
     mu = law.mu;
     kappa = law.kappa;
     k.rho0 = law.rho0;
@@ -106,24 +97,20 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
   });
   k.kernel_volume = set.kernel_volume[static_cast<std::size_t>(body_.first)];
   k.h_min = *std::min_element(body_.spacing.begin(), body_.spacing.begin() + D_);
-  double const speed_ratio = options_.shear_speed ? std::min(1.0, std::sqrt((7.0 / 3.0) * mu / k.rho0) / k.c_p0) : 1.0;
+  // The filtered scheme stabilises with the speed of shear-type waves.
+  double const speed_ratio = verlet() ? std::min(1.0, std::sqrt((7.0 / 3.0) * mu / k.rho0) / k.c_p0) : 1.0;
   k.eps2 = options_.eps2 * speed_ratio;
   k.eps4 = options_.eps4 * speed_ratio;
-  k.kappa_local = options_.filter ? std::min(kappa, options_.local_bulk * mu) : kappa;
+  k.kappa_local = options_.filter ? std::min(kappa, mu) : kappa;
   k.kappa_filtered = kappa - k.kappa_local;
-  k.filter_passes = options_.filter_passes;
-  k.eps2_J = options_.eps2_J * speed_ratio;
-  k.eps4_J = options_.eps4_J * speed_ratio;
-  k.gradient = options_.gradient;
-  k.force = options_.force;
+  k.eps2_J = options_.eps2_J;
+  k.eps4_J = options_.eps4_J;
   k.exact_speed = options_.exact_speed;
   k.integrator = options_.integrator;
   k.variables = options_.variables;
   k.biharmonic = options_.biharmonic;
   k.mirrored = !images_.empty();
   k.project = options_.project && !k.mirrored;
-  k.without_rigid = options_.without_rigid() && !k.mirrored;
-  if (options_.hourglass()) set_hourglass(mu);
   auto const moments = sums_over_slots<4>(shared(), own(), [&](Index i, double* sum) {
     auto const X = this->X(i);
     sum[3] = volume(i);
@@ -139,20 +126,6 @@ void JstBody::set_constants(ParticleSet const& set, MaterialParameters const& ma
   state_.external_work = &external_work_;
 }
 
-void JstBody::set_hourglass(double mu) {
-  auto& k = state_.constants;
-  double const c = std::min(k.c_p0, std::sqrt((7.0 / 3.0) * mu / k.rho0));
-  double moment = pairs_->corrections().largest_moment;
-  if (shared()) comm::allreduce_max(moment);
-  k.hourglass.modulus = 0.25 * mu / moment;
-  k.hourglass.stiffness = options_.hourglass_stiffness;
-  k.hourglass.stiffening = is_hypoelastic(state_.material) ? 0 : options_.hourglass_stiffening / mu;
-  // Never quite zero: the look-ahead state also supplies the rate of deformation for the energy balance.
-  constexpr double least = 1e-6;
-  k.hourglass.ahead = std::max(options_.hourglass_viscosity, least) * k.h_min / c;
-  if (k.kappa_filtered > 0) k.hourglass.bulk_ahead = options_.bulk_viscosity * k.h_min / k.c_p0;
-}
-
 bool JstBody::wanted(Field const& f) const {
   bool const displacement = options_.variables == Variables::displacement, verlet = this->verlet(),
              area = options_.variables == Variables::pFHJ, volume = evolves_volume(options_.variables),
@@ -160,23 +133,12 @@ bool JstBody::wanted(Field const& f) const {
   auto const among = [&](std::initializer_list<Field const*> fields) {
     return std::find(fields.begin(), fields.end(), &f) != fields.end();
   };
-  if (among({&fields_.last_F, &fields_.history})) return is_hypoelastic(state_.material);
   if (among({&fields_.stage_position})) return displacement;
-  if (among({&fields_.hourglass_force, &fields_.hourglass_stress, &fields_.viscous_work, &fields_.hourglass_energy}))
-    return options_.hourglass();
-  if (among({&fields_.filter_input, &fields_.ratio_change, &fields_.seen_ratio}))
-    return state_.constants.hourglass.bulk_ahead > 0;
   if (among({&fields_.v_n, &fields_.F_star, &fields_.wave_speed_next})) return !verlet;
-  if (among({&fields_.volume_ratio})) return verlet || options_.filter;
-  if (among({&fields_.H})) return area;
-  if (among({&fields_.H_star})) return area && !verlet;
-  if (among({&fields_.J})) return volume && !options_.filter;
-  if (among({&fields_.ratio_increment})) return volume && options_.filter;
-  if (among({&fields_.J_n})) return volume && !verlet;
+  if (among({&fields_.volume_ratio})) return verlet;
+  if (among({&fields_.H, &fields_.H_star})) return area;
+  if (among({&fields_.J, &fields_.J_n})) return volume;
   if (among({&fields_.J_next, &fields_.J_rate, &fields_.w_J})) return smoothed_J;
-  if (among({&fields_.full_correction, &fields_.gamma, &fields_.kernel_difference, &fields_.kernel_force,
-             &fields_.kernel_force_sum}))
-    return options_.corrected_kernel();
   if (among({&fields_.filtered_ratio, &fields_.filtered_pressure, &fields_.filter_scale, &fields_.filter_sum,
              &fields_.filter_source_a, &fields_.filter_source_b}))
     return options_.filter;
@@ -209,16 +171,8 @@ void JstBody::allocate() {
   std::tie(s.volume_ratio, s.filtered_ratio, s.filtered_pressure, s.filter_scale, s.filter_sum) =
       std::tuple(f.volume_ratio.ref(), f.filtered_ratio.ref(), f.filtered_pressure.ref(), f.filter_scale.ref(),
                  f.filter_sum.ref());
-  std::tie(s.H, s.J, s.H_star, s.J_n, s.J_next, s.J_rate, s.ratio_increment) = std::tuple(
-      f.H.ref(), f.J.ref(), f.H_star.ref(), f.J_n.ref(), f.J_next.ref(), f.J_rate.ref(), f.ratio_increment.ref());
-  std::tie(s.full_correction, s.gamma, s.kernel_difference, s.kernel_force, s.kernel_force_sum) =
-      std::tuple(f.full_correction.ref(), f.gamma.ref(), f.kernel_difference.ref(), f.kernel_force.ref(),
-                 f.kernel_force_sum.ref());
-  std::tie(s.last_F, s.history) = std::tuple(f.last_F.ref(), f.history.ref());
-  std::tie(s.filter_input, s.ratio_change, s.seen_ratio) =
-      std::tuple(f.filter_input.ref(), f.ratio_change.ref(), f.seen_ratio.ref());
-  std::tie(s.hourglass_force, s.hourglass_stress, s.viscous_work, s.hourglass_energy) =
-      std::tuple(f.hourglass_force.ref(), f.hourglass_stress.ref(), f.viscous_work.ref(), f.hourglass_energy.ref());
+  std::tie(s.H, s.J, s.H_star, s.J_n, s.J_next, s.J_rate) =
+      std::tuple(f.H.ref(), f.J.ref(), f.H_star.ref(), f.J_n.ref(), f.J_next.ref(), f.J_rate.ref());
   s.filter_source[0] = f.filter_source_a.ref();
   s.filter_source[1] = f.filter_source_b.ref();
   s.u = options_.variables == Variables::displacement ? f.stage_position.ref() : f.v.ref();
@@ -242,14 +196,12 @@ void JstBody::mark_images() {
   if (options_.smoothed_volume()) first.push_back(Kind::scalar);  // J
   s.u.copies = images_.copies(first);
   std::vector<Kind> second;
-  if (options_.biharmonic != Biharmonic::none) second = {Kind::vector};  // w
-  if (options_.smoothed_volume()) second.push_back(Kind::scalar);        // w_J
-  if (options_.biharmonic == Biharmonic::adjoint)                        // alpha, beta
+  if (stabilised()) second = {Kind::vector};                       // w
+  if (options_.smoothed_volume()) second.push_back(Kind::scalar);  // w_J
+  if (options_.biharmonic == Biharmonic::adjoint)                  // alpha, beta
     second.insert(second.end(), {Kind::geometric_vector, Kind::scalar});
   second.push_back(Kind::tensor);  // A
   s.second.copies = images_.copies(second);
-  s.ahead.copies = images_.copies({Kind::position, Kind::deformation, Kind::scalar});
-  s.kernel_force.copies = images_.copies({Kind::vector});
   for (FieldRef& source : s.filter_source) source.copies = images_.copies({Kind::scalar});
   weight_.allocate(order_.slots(), 0);
   for (Index i = own().first; i < own().last; ++i) weight_.at(i) = volume(i);
@@ -284,7 +236,6 @@ JstBody::NeighbourRecords JstBody::gather(int values) const {
 
 void JstBody::place_gathered() {
   bool const adjoint = options_.biharmonic == Biharmonic::adjoint;
-  bool const stabilised = options_.biharmonic != Biharmonic::none;
   Index const n = order_.slots();
   auto const place = [n](Field& f, NeighbourRecords& g, std::ptrdiff_t offset) {
     f.place(g.memory.data(), g.component, g.particle, g.start + offset * g.component, n, &g.version);
@@ -295,22 +246,12 @@ void JstBody::place_gathered() {
   place(options_.variables == Variables::displacement ? fields_.stage_position : fields_.v, first_, 0);
   if (with_x) place(fields_.x, first_, D_);
   if (smoothed_J) place(fields_.J, first_, D_);
-  if (options_.corrected_kernel()) {
-    kernel_ = gather(D_);
-    place(fields_.kernel_force, kernel_, 0);
-  }
-  if (options_.hourglass()) {
-    ahead_ = gather(D_ + D_ * D_ + 1);
-    state_.ahead = {
-        ahead_.memory.data() + ahead_.start, ahead_.component, ahead_.particle, 0, &ahead_.version, "hourglass sweep"};
-  }
-
-  int const smoothed = stabilised ? D_ + (smoothed_J ? 1 : 0) : 0;
+  int const smoothed = stabilised() ? D_ + (smoothed_J ? 1 : 0) : 0;
   int const before_A = adjoint ? smoothed + D_ + 1 : smoothed;
   second_ = gather(before_A + D_ * D_);
   state_.second = {
       second_.memory.data() + second_.start, second_.component, second_.particle, 0, &second_.version, "second sweep"};
-  if (stabilised) place(fields_.w, second_, 0);
+  if (stabilised()) place(fields_.w, second_, 0);
   if (smoothed_J) place(fields_.w_J, second_, D_);
   place(fields_.A, second_, before_A);
   if (adjoint) fill_adjoint(smoothed);
@@ -389,42 +330,15 @@ void JstBody::fill_reference(int lanes) {
   });
 }
 
-void JstBody::fill_corrected_kernel(int lanes) {
-  auto const kernel = pairs_->correct_kernel();
-  state_.constants.kernel_at_zero = kernel.at_zero;
-  each_stored(lanes, [&](Index to, Index i) {
-    auto const slot = static_cast<std::size_t>(i);
-    for (int c = 0; c < D_; ++c) {
-      fields_.gamma.at(to, c) = kernel.gamma[slot][static_cast<std::size_t>(c)];
-      for (int d = 0; d < D_; ++d) fields_.full_correction.at(to, c * D_ + d) = kernel.C[slot][std::size_t{3} * c + d];
-    }
-  });
-}
-
 /// H and J of the start, where they are unknowns: those of F.
 void JstBody::fill_evolved_geometry() {
-  bool const area = wanted(fields_.H), volume = wanted(fields_.J);
-  if (!area && !volume && !wanted(fields_.filtered_ratio)) return;
+  if (!evolves_volume(options_.variables)) return;
+  bool const area = wanted(fields_.H);
   for (Index i = state_.slots.first; i < state_.slots.last; ++i) {
     Mat<3> const F = i < order_.particles ? this->F(i) : identity<3>(), H = cofactor(F);
-    for (int c = 0; area && c < 9; ++c) fields_.H.at(i, c) = H.c[c];
-    if (volume)
-      with_law(state_.material, [&](auto const& law) { fields_.J.at(i) = volume_ratio_of(law.small_strain, F); });
-    if (wanted(fields_.filtered_ratio)) fields_.filtered_ratio.at(i) = 1;
-    if (wanted(fields_.H_star))
-      for (int c = 0; c < 9; ++c) fields_.H_star.at(i, c) = H.c[c];
+    for (int c = 0; area && c < 9; ++c) fields_.H.at(i, c) = fields_.H_star.at(i, c) = H.c[c];
+    with_law(state_.material, [&](auto const& law) { fields_.J.at(i) = volume_ratio_of(law.small_strain, F); });
   }
-}
-
-/// Solids in rate form start free of stress where they are not deformed.
-void JstBody::fill_solid(Backend const& backend) {
-  with_solid(state_.material, [&](auto const& law) {
-    for (Index i = state_.slots.first; i < state_.slots.last; ++i) {
-      for (int c = 0; c < 9; ++c) fields_.last_F.at(i, c) = c % 4 == 0 ? 1 : 0;
-      fields_.history.at(i, SolidFields::temperature) = law.initial_temperature();
-    }
-    backend.commit_solid(state_, 0);
-  });
 }
 
 /// Sends constant data that far ghosts also need.
@@ -531,19 +445,6 @@ void JstBody::damp(double factor) {
   state_.totals.damping_loss += before - kinetic_energy();
 }
 
-double JstBody::hourglass_energy() const {
-  if (!options_.hourglass()) return 0;
-  return sum_over_slots(shared(), own(), [&](Index i) { return volume(i) * value(state_.hourglass_energy, i); });
-}
-
-double JstBody::filtered_energy() const {
-  if (state_.seen_ratio.data == nullptr) return 0;
-  return 0.5 * state_.constants.kappa_filtered * sum_over_slots(shared(), own(), [&](Index i) {
-           double const change = value(state_.seen_ratio, i) - 1;
-           return volume(i) * change * change;
-         });
-}
-
 double JstBody::kinetic_energy() const {
   return 0.5 * state_.constants.rho0 * sum_over_slots(shared(), own(), [&](Index i) {
            auto const v = this->v(i);
@@ -566,7 +467,7 @@ Mat<3> JstBody::H(Index slot) const {
 
 double JstBody::J(Index slot) const {
   if (wanted(fields_.J)) return value(state_.J, slot);
-  double J = determinant(F(slot));  // of solids
+  double J = 1;
   with_law(state_.material, [&](auto const& law) { J = volume_ratio_of(law.small_strain, F(slot)); });
   return J;
 }
@@ -574,7 +475,7 @@ double JstBody::J(Index slot) const {
 std::size_t JstBody::bytes() const {
   return order_.id.size() * sizeof(order_.id[0]) + partial_.size() * sizeof(double) +
          group_.size() * sizeof(group_[0]) + pairs_->bytes() + boundary_.bytes() + first_.memory.bytes() +
-         second_.memory.bytes() + ahead_.memory.bytes() + kernel_.memory.bytes() + weight_.bytes() + fields_.bytes();
+         second_.memory.bytes() + weight_.bytes() + fields_.bytes();
 }
 
 }  // namespace piola::jst_sph

@@ -51,10 +51,7 @@ class JstBody {
     return external_work_;
   }  ///< of loads and of driven supports since the start [J]
   DeferredGlobalSum const& external_work() const { return external_work_; }
-  double kinetic_energy() const;    ///< over all ranks [J]; collective
-  double hourglass_energy() const;  ///< over all ranks, at the last observation [J]; collective
-  double filtered_energy() const;   ///< over all ranks, of the filtered volume ratio if that has a viscous part [J];
-                                    ///< collective
+  double kinetic_energy() const;  ///< over all ranks [J]; collective
   /// The next time after `time` at which a support or a load ends.
   double next_end_time(double time) const { return boundary_.next_end_time(time); }
   Boundary& boundary() { return boundary_; }
@@ -114,8 +111,6 @@ class JstBody {
   void fill_adjoint(int first);
   bool wanted(Field const& f) const;
   void fill_filter();
-  void fill_solid(Backend const& backend);
-  void fill_corrected_kernel(int lanes);
   void fill_evolved_geometry();
   /// Calls f(place, slot) for every stored place of a reference field that holds a particle.
   template <class Visit>
@@ -125,15 +120,9 @@ class JstBody {
   void fill_initial(Assembly const& assembly, Backend const& backend);
   void deform_to_positions(Backend const& backend);
   void set_constants(ParticleSet const& set, MaterialParameters const& material);
-  void set_hourglass(double mu);
-  /// Whether the first sweep also reads positions, for the Laplacian of the motion without its rigid part.
-  bool gathers_position() const {
-    return options_.biharmonic != Biharmonic::none && (verlet() || options_.shear_speed);
-  }
-  /// Whether sweeps have the support radius of the Laplacian.
-  bool is_wide() const {
-    return options_.biharmonic != Biharmonic::none || options_.filter || options_.corrected_kernel();
-  }
+  /// The first sweep also reads positions, for the Laplacian of the motion without its rigid part.
+  bool gathers_position() const { return verlet(); }
+  bool stabilised() const { return options_.biharmonic != Biharmonic::none; }
   bool verlet() const { return options_.integrator == Integrator::verlet; }
 
   Body body_;
@@ -145,7 +134,7 @@ class JstBody {
   std::unique_ptr<ReferencePairs> pairs_;
   Fields fields_;
   Field weight_{"QuadratureWeight", "m3", 1, Role::reference};  ///< with mirror planes
-  NeighbourRecords first_, second_, ahead_, kernel_;
+  NeighbourRecords first_, second_;
   std::vector<std::int32_t> group_;  // regular bodies: index of the stored reference data of a group of lanes
   Index stored_slots_ = 0;
   std::vector<Index> group_first_;  // per stored group: first slot

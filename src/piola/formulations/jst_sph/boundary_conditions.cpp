@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/boundary_conditions.hpp"
 #include "piola/domain/communicator.hpp"
-#include "piola/materials/hypoelastic_registry.hpp"
+#include "piola/materials/laws.hpp"
 #include <limits>
 #include <map>
 #include <set>
@@ -29,7 +29,7 @@ Boundary::Boundary(Assembly const& assembly, std::size_t body, SlotOrder const& 
       D_(assembly.particles.dimension),
       cloud_(std::move(cloud)),
       driven_(D_, connected(assembly.supports, mirrors), assembly.loads, cloud_.has_value()) {
-  with_any_law(assembly.materials[body], [&](auto const& law) { rho0_ = law.rho0; });
+  with_law(assembly.materials[body], [&](auto const& law) { rho0_ = law.rho0; });
   std::vector<Index> slot_of(static_cast<std::size_t>(body_.last - body_.first));
   for (Index i = 0; i < order.particles; ++i)
     slot_of[static_cast<std::size_t>(order.id[static_cast<std::size_t>(i)] - body_.first)] = i;

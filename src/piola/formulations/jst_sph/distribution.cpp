@@ -53,28 +53,19 @@ std::vector<Index> JstBody::slots_read(int lanes, bool far) const {
 }
 
 /// Ghost data of the sweeps, field by field in the layout of place_gathered(), by message; alpha and beta are constant.
-/// Gradients read near neighbours alone; Laplacians, the filter and the corrected kernel also far ones.
+/// Gradients read near neighbours alone; Laplacians and the filter also far ones.
 std::vector<std::vector<JstBody::Told>> JstBody::told() const {
   auto const& s = state_;
-  bool const smoothed_J = options_.smoothed_volume(), stabilised = options_.biharmonic != Biharmonic::none;
-  int const smoothed = stabilised ? D_ + (smoothed_J ? 1 : 0) : 0;
+  bool const smoothed_J = options_.smoothed_volume();
+  int const smoothed = stabilised() ? D_ + (smoothed_J ? 1 : 0) : 0;
   int const before_A = options_.biharmonic == Biharmonic::adjoint ? smoothed + D_ + 1 : smoothed;
   int const beside_u = gathers_position() ? D_ : smoothed_J ? 1 : 0;
-  bool const far_u = stabilised || options_.corrected_kernel();
   std::vector<std::vector<Told>> messages{
-      {{s.u, 0, D_ + beside_u, far_u}},
-      {{s.ahead, 0, D_ + D_ * D_ + 1, false}},
-      {{s.kernel_force, 0, D_, true}},
+      {{s.u, 0, D_ + beside_u, stabilised()}},
       {{s.second, 0, smoothed, true}, {s.second, before_A, D_ * D_, false}},
   };
-  // Passes of the filter and of its adjoint read one buffer and write the other; the first one goes with what is ahead.
-  for (int pass = 0; pass < 2 * options_.filter_passes; ++pass) {
-    Told const source{s.filter_source[pass % 2], 0, 1, true};
-    if (pass == 0 && s.ahead.data != nullptr)
-      messages[1].push_back(source);
-    else
-      messages.push_back({source});
-  }
+  // Passes of the filter and of its adjoint read one buffer and write the other.
+  for (int pass = 0; pass < 2 * filter_passes; ++pass) messages.push_back({{s.filter_source[pass % 2], 0, 1, true}});
   for (auto& parts : messages)
     std::erase_if(parts, [](Told const& t) { return t.field.data == nullptr || t.count == 0; });
   std::erase_if(messages, [](auto const& parts) { return parts.empty(); });
@@ -96,10 +87,9 @@ CommPattern JstBody::comm_pattern() const {
     talk.messages.emplace_back();
     for (Told const& t : parts) talk.messages.back().push_back({t.far ? far : near, t.count});
   }
-  int const stages = verlet() ? 1 : 2;
-  bool const rigid_of_stages = !verlet() && state_.constants.without_rigid;
-  // Sums of motion and of forces, with the largest wave speed and the first failure, unless volumes fail later.
-  talk.collectives = (verlet() ? 2 : stages * (rigid_of_stages ? 2 : 1)) + (options_.smoothed_volume() ? 1 : 0);
+  // Verlet: sums of motion and of forces; Runge-Kutta: of forces in both stages. With them go the largest wave speed
+  // and the first failure, unless volumes fail later.
+  talk.collectives = 2 + (options_.smoothed_volume() ? 1 : 0);
   return talk;
 }
 

@@ -42,21 +42,6 @@ struct Fields : FieldSet {
   ListedField J_next{*this, "NextVolumeRatio", "1", 1, Role::derived};
   ListedField J_rate{*this, "VolumeRatioStabilisation", "1/s", 1, Role::derived};
   ListedField w_J{*this, "VolumeStabilisationArgument", "1", 1, Role::derived};
-  ListedField ratio_increment{*this, "VolumeRatioIncrement", "1", 1, Role::derived};
-  ListedField filter_input{*this, "VolumeRatioAhead", "1", 1, Role::evolved};
-  ListedField ratio_change{*this, "VolumeRatioChange", "1", 1, Role::derived};
-  ListedField hourglass_force{*this, "HourglassAcceleration", "m/s2", D_, Role::evolved};
-  ListedField hourglass_stress{*this, "HourglassStress", "Pa", D_* D_, Role::evolved};
-  ListedField viscous_work{*this, "ViscousWork", "J/m3", 1, Role::derived};
-  ListedField hourglass_energy{*this, "HourglassEnergy", "J/m3", 1, Role::derived};
-  ListedField seen_ratio{*this, "SeenVolumeRatio", "1", 1, Role::derived};
-  ListedField last_F{*this, "DeformationGradientOfLastStep", "1", 9, Role::evolved};
-  ListedField history{*this, "SolidHistory", "1", SolidFields::size, Role::evolved};
-  ListedField full_correction{*this, "FullGradientCorrection", "1", D_* D_, Role::reference};
-  ListedField gamma{*this, "KernelGradientMean", "1/m", D_, Role::reference};
-  ListedField kernel_difference{*this, "KernelDifference", "m/s", D_, Role::derived};
-  ListedField kernel_force{*this, "KernelForce", "Pa/m", D_, Role::derived};
-  ListedField kernel_force_sum{*this, "KernelForceSum", "Pa/m", D_, Role::derived};
 };
 
 }  // namespace piola::jst_sph

@@ -48,19 +48,16 @@ class Forces {
       b_.largest_wave_speed = largest_wave_speed_of(b_, *ended);
       beside = {&b_.largest_wave_speed, b_.failure};
     }
-    return smooths_volume(b_.constants) ? sum<D + 1>(time, beside) : sum<D>(time, beside);
-  }
-
- private:
-  template <int Smoothed>
-  StageBalance sum(double time, FusedReductions const& beside) {
     switch (b_.constants.biharmonic) {
-      case Biharmonic::adjoint: return sweep<Biharmonic::adjoint, Smoothed>(time, beside);
-      case Biharmonic::literal: return sweep<Biharmonic::literal, Smoothed>(time, beside);
+      case Biharmonic::adjoint: return sweep<Biharmonic::adjoint, D>(time, beside);
+      case Biharmonic::literal:
+        return smooths_volume(b_.constants) ? sweep<Biharmonic::literal, D + 1>(time, beside)
+                                            : sweep<Biharmonic::literal, D>(time, beside);
       default: return sweep<Biharmonic::none, D>(time, beside);
     }
   }
 
+ private:
   template <Biharmonic B, int Smoothed>
   StageBalance sweep(double time, FusedReductions const& beside) {
     SumForces<D, B, Smoothed, Loader> const pass{
@@ -79,10 +76,7 @@ class Forces {
         write(b_.rate),
         read(b_.rate),
         write(b_.J_rate),
-        read(b_.J_rate),
-        read(b_.kernel_force_sum),
-        read(b_.hourglass_force),
-        read(b_.viscous_work)};
+        read(b_.J_rate)};
     // A trial step without projection does not need the sums.
     bool const asked = !b_.trial || b_.constants.project || smooths_volume(b_.constants);
     return project(reduce_over_ranks<At::size>(b_.halo != nullptr && asked, b_.slots, pass, b_.partial, beside), time);
@@ -100,11 +94,8 @@ class Forces {
     }
     RateSums const v = of(At::v, At::moment_v);
     double const weight = time * b_.constants.rho0;
-    // The projection of viscous hourglass forces belongs to the hourglass energy; T has no other part to project.
-    (b_.constants.hourglass.modulus > 0 ? b_.totals.stabilisation_loss : b_.totals.projection_loss) -=
-        weight * power_of(on_T, v);
+    b_.totals.projection_loss -= weight * power_of(on_T, v);
     b_.totals.stabilisation_loss -= weight * (sums.v[At::power_stabilisation] + power_of(on_D, v));
-    b_.totals.viscous_work -= 0.5 * sums.v[At::viscous_work];
     RigidRate both = on_T;
     for (int c = 0; c < 3; ++c) {
       both.spin[c] += on_D.spin[c];
@@ -119,4 +110,4 @@ class Forces {
   Loader loader_;
 };
 
-}  // namespace piola::jst_sph::inline PIOLA_MACHINE
+}  // namespace piola::jst_sph::inline PIOLA_BACKEND

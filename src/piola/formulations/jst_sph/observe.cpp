@@ -3,7 +3,7 @@
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/common/output_fields.hpp"
 #include "piola/formulations/common/sample_local.hpp"
-#include "piola/materials/hypoelastic_registry.hpp"
+#include "piola/materials/laws.hpp"
 #include <array>
 #include <cmath>
 
@@ -12,14 +12,11 @@ namespace {
 
 bool evolves_volume(JstBody const& body) { return jst_sph::evolves_volume(body.options().variables); }
 
-/// With filtered volumetric energy: the acting pressure; with the biharmonic term, whose total pressure is less
-/// accurate, the smooth pressure (kappa / kappa_f) q.
+/// With filtered volumetric energy the smooth pressure (kappa / kappa_f) q: the acting one is less accurate.
 template <class Law>
 double observed_pressure(JstBody const& body, Law const& law, Mat<3> const& F, Index i) {
   if constexpr (Law::volumetric_split) {
     auto const& k = body.state().constants;
-    if (k.hourglass.modulus > 0 && k.kappa_filtered > 0)
-      return k.kappa_local * (law.volume_ratio(F) - 1) + JstBody::value(body.state().filtered_pressure, i);
     if (k.kappa_filtered > 0) return law.kappa / k.kappa_filtered * JstBody::value(body.state().filtered_pressure, i);
     if (evolves_volume(body)) return law.kappa * (body.J(i) - 1);
   }
@@ -27,11 +24,7 @@ double observed_pressure(JstBody const& body, Law const& law, Mat<3> const& F, I
   return law.pressure(F);
 }
 
-/// The filtered volume ratio, of the state as it is.
-double seen_volume_ratio(JstBody const& body, Index i) {
-  auto const& s = body.state();
-  return JstBody::value(s.seen_ratio.data != nullptr ? s.seen_ratio : s.filtered_ratio, i);
-}
+double filtered_ratio(JstBody const& body, Index i) { return JstBody::value(body.state().filtered_ratio, i); }
 
 /// P of the momentum equation.
 template <class Law>
@@ -41,7 +34,7 @@ Mat<3> acting_stress(JstBody const& body, Law const& law, Mat<3> const& F, Index
     if (state.constants.kappa_filtered > 0) {
       double const p =
           state.constants.kappa_local * (law.volume_ratio(F) - 1) + JstBody::value(state.filtered_pressure, i);
-      return law.stress_with_pressure(F, body.H(i), determinant(F), p);
+      return law.stress_with_pressure(F, cofactor(F), determinant(F), p);
     }
   }
   return evolves_volume(body) ? law.stress(F, body.H(i), body.J(i)) : law.first_piola(F);
@@ -52,7 +45,7 @@ double stored_energy(JstBody const& body, Law const& law, Mat<3> const& F, Index
   if constexpr (Law::volumetric_split) {
     auto const& k = body.state().constants;
     if (k.kappa_filtered > 0) {
-      double const local = law.volume_ratio(F) - 1, filtered = seen_volume_ratio(body, i) - 1;
+      double const local = law.volume_ratio(F) - 1, filtered = filtered_ratio(body, i) - 1;
       return law.isochoric_energy(F) + 0.5 * k.kappa_local * local * local +
              0.5 * k.kappa_filtered * filtered * filtered;
     }
@@ -60,39 +53,9 @@ double stored_energy(JstBody const& body, Law const& law, Mat<3> const& F, Index
   return evolves_volume(body) ? law.energy(F, body.H(i), body.J(i)) : law.energy(F);
 }
 
-double history(JstBody const& body, Index i, int c) { return JstBody::value(body.state().history, i, c); }
-
-/// State of a solid in rate form after the last step.
-struct SolidState {
-  double rho0;
-};
-
-double observed_pressure(JstBody const& body, SolidState const&, Mat<3> const&, Index i) {
-  return -history(body, i, SolidFields::pressure);
-}
-
-Mat<3> acting_stress(JstBody const& body, SolidState const&, Mat<3> const& F, Index i) {
-  SymMat<3> S;
-  for (int c = 0; c < 6; ++c) S.c[c] = history(body, i, SolidFields::S + c);
-  Mat<3> const pressed = history(body, i, SolidFields::pressure) * identity<3>();
-  return (identity<3>() * S - pressed) * cofactor(F);
-}
-
-/// Internal energy, with that of plastic work.
-double stored_energy(JstBody const& body, SolidState const& law, Mat<3> const&, Index i) {
-  return law.rho0 * history(body, i, SolidFields::energy);
-}
-
-/// f(law) for hyperelastic laws, f(SolidState) for solids in rate form.
-template <class F>
-void with_observed_law(MaterialParameters const& material, F const& f) {
-  with_law(material, f);
-  if (is_hypoelastic(material)) with_any_law(material, [&](auto const& law) { f(SolidState{law.rho0}); });
-}
-
 /// det F minus the volume ratio that the volumetric energy sees, where that is another one.
 double volume_mismatch(JstBody const& body, double J, Index i) {
-  if (body.state().constants.kappa_filtered > 0) return J - seen_volume_ratio(body, i);
+  if (body.state().constants.kappa_filtered > 0) return J - filtered_ratio(body, i);
   return evolves_volume(body) ? J - body.J(i) : 0;
 }
 
@@ -102,17 +65,16 @@ void observe(JstBody const& body, JstObservation& o) {
   auto& d = o.totals;
   LatticeLineHalo* const lines = body.lines();
   std::vector<double> pressure(lines != nullptr ? 0 : static_cast<std::size_t>(body.particles()));
-  bool const solid = is_hypoelastic(body.state().material);
   exec::ReproducibleSums<1> strain;
   o.begin_body(body.body().name);
-  with_observed_law(body.state().material, [&](auto const& law) {
+  with_law(body.state().material, [&](auto const& law) {
     for (Index i = body.own().first; i < body.own().last; ++i) {
       Mat<3> const F = body.F(i);
       double const V = body.volume(i), J = determinant(F), p = observed_pressure(body, law, F, i),
                    energy = V * stored_energy(body, law, F, i), mismatch = volume_mismatch(body, J, i);
-      double const more[]{V * mismatch * mismatch, solid ? V * history(body, i, SolidFields::plastic_work) : 0};
+      double const square = V * mismatch * mismatch;
       strain.add(&energy);
-      o.mismatch_square_and_plastic_work.add(more);
+      o.mismatch_square.add(&square);
       o.mismatch_max = maximum(o.mismatch_max, std::abs(mismatch));
       o.add_state(J, p, V);
       (lines != nullptr ? lines->pressure(i) : pressure[static_cast<std::size_t>(body.id(i) - body.body().first)]) = p;
@@ -120,11 +82,7 @@ void observe(JstBody const& body, JstObservation& o) {
     }
   });
   if (body.shared()) comm::allreduce_sum(strain);
-  double const hourglass_energy = body.hourglass_energy();
-  o.add_strain_energy(strain.value() + hourglass_energy);
-  o.hourglass_energy += hourglass_energy;
-  if (body.options().hourglass())
-    d.stabilisation_loss += body.state().totals.viscous_work - hourglass_energy - body.filtered_energy();
+  o.add_strain_energy(strain.value());
   d.stabilisation_loss += body.state().totals.stabilisation_loss;
   d.projection_loss += body.state().totals.projection_loss;
   d.external_work += body.external_work().over_ranks();
@@ -138,39 +96,20 @@ void observe(JstBody const& body, JstObservation& o) {
 Diagnostics finish(JstObservation o) {
   if (comm::is_parallel()) {
     o.share();
-    comm::allreduce_sum(o.mismatch_square_and_plastic_work);
+    comm::allreduce_sum(o.mismatch_square);
     comm::allreduce_max(o.mismatch_max);
   }
   Diagnostics d = o.finish();
-  d.more = {{"volume_mismatch_rms", std::sqrt(o.mismatch_square_and_plastic_work.value(0) / o.volume())},
-            {"volume_mismatch_max", o.mismatch_max},
-            {"plastic_work", o.mismatch_square_and_plastic_work.value(1)},
-            {"internal_energy", d.strain_energy},
-            {"hourglass_energy", o.hourglass_energy}};
+  d.more = {{"volume_mismatch_rms", std::sqrt(o.mismatch_square.value() / o.volume())},
+            {"volume_mismatch_max", o.mismatch_max}};
   return d;
 }
 
 namespace {
 
-constexpr std::array<std::string_view, 18> offered{"Displacement",
-                                                   "Position",
-                                                   "Velocity",
-                                                   "Momentum",
-                                                   "Pressure",
-                                                   "CauchyStress",
-                                                   "FirstPiolaStress",
-                                                   "DeformationGradient",
-                                                   "Jacobian",
-                                                   "VonMisesStress",
-                                                   "Density",
-                                                   "Neighbours",
-                                                   "Body",
-                                                   "Id",
-                                                   "EquivalentPlasticStrain",
-                                                   "Damage",
-                                                   "Temperature",
-                                                   "InternalEnergy"};
-constexpr std::size_t of_every_law = 14;  ///< the others belong to solids in rate form
+constexpr std::array<std::string_view, 14> offered{
+    "Displacement",        "Position", "Velocity",       "Momentum", "Pressure",   "CauchyStress", "FirstPiolaStress",
+    "DeformationGradient", "Jacobian", "VonMisesStress", "Density",  "Neighbours", "Body",         "Id"};
 
 ParticleOutput motion_of(JstBody const& body, Index i) {
   ParticleOutput p;
@@ -182,18 +121,9 @@ ParticleOutput motion_of(JstBody const& body, Index i) {
   return p;
 }
 
-void add_history(JstBody const& body, Index i, ParticleOutput& p) {
-  p.plastic_strain = history(body, i, SolidFields::plastic_strain);
-  p.damage = history(body, i, SolidFields::damage);
-  p.temperature = history(body, i, SolidFields::temperature);
-  p.specific_energy = history(body, i, SolidFields::energy);
-}
-
 }  // namespace
 
-std::vector<FieldInfo> output_field_names(bool solids) {
-  return field_infos(std::span(offered).first(solids ? offered.size() : of_every_law));
-}
+std::vector<FieldInfo> output_field_names() { return field_infos(offered); }
 
 namespace {
 
@@ -205,7 +135,7 @@ void observe_each(JstBody const& body, int body_number, std::string_view field, 
     for (Index i = own.first; i < own.last; ++i) f(i, motion_of(body, i));
     return;
   }
-  with_observed_law(body.state().material, [&](auto const& law) {
+  with_law(body.state().material, [&](auto const& law) {
     for (Index i = own.first; i < own.last; ++i) {
       ParticleOutput p = motion_of(body, i);
       p.body = body_number;
@@ -217,7 +147,6 @@ void observe_each(JstBody const& body, int body_number, std::string_view field, 
       p.pressure = observed_pressure(body, law, p.F, i);
       p.inertia = law.rho0;
       p.density = law.rho0 / p.J;
-      if (is_hypoelastic(body.state().material)) add_history(body, i, p);
       f(i, p);
     }
   });

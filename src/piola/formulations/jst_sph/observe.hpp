@@ -8,10 +8,9 @@
 namespace piola::jst_sph {
 
 struct JstObservation : DiagnosticsSum {
-  /// sum V (det F - volume ratio of the volumetric energy)^2; [J]
-  exec::ReproducibleSums<2> mismatch_square_and_plastic_work;
+  /// sum V (det F - volume ratio of the volumetric energy)^2
+  exec::ReproducibleSums<1> mismatch_square;
   double mismatch_max = 0;
-  double hourglass_energy = 0;  ///< [J]
 };
 
 /// Adds the local particles. Collective if the body is distributed.
@@ -20,8 +19,8 @@ void observe(JstBody const& body, JstObservation& observation);
 /// Energies, momenta, extrema and the volume mismatch over all bodies. Collective if they are distributed.
 Diagnostics finish(JstObservation observation);
 
-/// The fields of JST-SPH for frames and probes; `solids`: with those of solids in rate form.
-std::vector<FieldInfo> output_field_names(bool solids);
+/// The fields of JST-SPH for frames and probes.
+std::vector<FieldInfo> output_field_names();
 
 /// Gathers one field of one body on rank 0, values[id * components + c]. Collective if the body is distributed. Throws
 /// std::invalid_argument for an unknown field.

@@ -217,15 +217,13 @@ struct ForceTotals : MotionTotals<D> {
   static constexpr int power_T = moment_stabilisation + spins<D>;  // sum V v.a_T
   static constexpr int power_stabilisation = power_T + 1;          // sum V v.a_D
   static constexpr int J_rate = power_stabilisation + 1;           // sum V D(J)
-  static constexpr int viscous_work = J_rate + 1;                  // of both ends of the step
-  static constexpr int size = viscous_work + 1;
+  static constexpr int size = J_rate + 1;
 };
 
 /// Rate of velocity from internal force and stabilisation, before projection; and the sums that projections need.
 ///   -T_a = (V_kernel / V_a) [ sum_b s A_b r + A_a G_a ]               (29c), (32)
 ///   D4_a = -eps4 c_a h^3 L w_a   or   -(1 / V_a) [ sum_b ... - w_a sum_b l~_ab ]   (37b) or its adjoint form
-/// and D(J) in the same way, where J is stabilised (38). The corrected kernel has sum_b V_kernel W_ab A_b gamma_b with
-/// b = a included instead of A_a G_a (31). The sum over all particles of V T vanishes identically.
+/// and D(J) in the same way, where J is stabilised (38). The sum over all particles of V T vanishes identically.
 template <int D, Biharmonic B, int Smoothed, class Loader>
 struct SumForces {
   using Body = SecondSums<D, B, Smoothed>;
@@ -237,25 +235,18 @@ struct SumForces {
   ReferenceView V, weight, G, diagonal;
   View wave_speed, x, v;
   WriteView rate;
-  View rate_in;           ///< D2 of UpdateStress
-  WriteView J_rate;       ///< D(J); without data unless Smoothed > D
-  View J_rate_in;         ///< D2 of J
-  View kernel_force_sum;  ///< corrected kernel only
-  View hourglass_force, viscous_work;
+  View rate_in;      ///< D2 of UpdateStress or Deform
+  WriteView J_rate;  ///< D(J); without data unless Smoothed > D
+  View J_rate_in;    ///< D2 of J
 
   PIOLA_FN void operator()(Index i, Lanes* total) const {
     Lanes sum[Body::sums];
     loader(i, body, sum);
     auto const volume = V.scalar<Lanes>(i);
     Lanes const inverse_volume = 1.0 / maximum(volume, Lanes(1e-300));
-    Vec<D, Lanes> force = k.force == GradientForm::corrected_kernel ? kernel_force_sum.vector<D, Lanes>(i)
-                                                                    : A.matrix<D, Lanes>(i) * G.vector<D, Lanes>(i);
+    Vec<D, Lanes> force = A.matrix<D, Lanes>(i) * G.vector<D, Lanes>(i);
     for (int c = 0; c < D; ++c) force[c] = force[c] + sum[c];
-    Vec<D, Lanes> a_T = ((k.kernel_volume / k.rho0) * inverse_volume) * force;
-    if (k.hourglass.modulus > 0) {
-      a_T = a_T + hourglass_force.vector<D, Lanes>(i);
-      total[At::viscous_work] = total[At::viscous_work] + weight.scalar<Lanes>(i) * viscous_work.scalar<Lanes>(i);
-    }
+    Vec<D, Lanes> const a_T = ((k.kernel_volume / k.rho0) * inverse_volume) * force;
     Vec<D, Lanes> const a_D = stabilisation(i, sum, inverse_volume);
     rate.vector<D>(i, a_T + a_D);
     add(i, weight.scalar<Lanes>(i), a_T, a_D, total);
@@ -367,4 +358,4 @@ struct HoldSupports {
   }
 };
 
-}  // namespace piola::jst_sph::inline PIOLA_MACHINE
+}  // namespace piola::jst_sph::inline PIOLA_BACKEND

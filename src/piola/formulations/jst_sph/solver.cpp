@@ -21,12 +21,12 @@ namespace {
 
 /// JST-SPH of one or more bodies that do not touch each other.
 class Solver final : public Formulation {
-  /// Share of the stability limit that is used: power iterations come from below. Less where little damping forgives.
-  static constexpr double margin = 0.85, margin_with_hourglass = 0.7;
+  /// Fraction of the stability limit that is used: power iterations come from below.
+  static constexpr double margin = 0.85;
   /// The first step takes this fraction of the limit and each further one may be longer by `growth`: a violent start,
   /// and jumps of the step, would excite the modes near the limit and let the energy of a sample exceed the earlier
-  /// one. Near the limit this fluctuation is larger, and a scheme with little damping hides less of it.
-  static constexpr double first_share = 0.05, growth = 1.08, growth_near_limit = 1.02, near_limit = 0.5;
+  /// one.
+  static constexpr double first_share = 0.05, growth = 1.08;
 
  public:
   explicit Solver(Assembly const& assembly)
@@ -34,8 +34,7 @@ class Solver final : public Formulation {
         backend_(&choose_backend(assembly.backend.c_str())),
         actions_(assembly.supports, assembly.loads, assembly.rigid_shapes) {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
-      Options const options = read_options(assembly.formulations[k], assembly.materials[k], assembly.cfl,
-                                           assembly.particles.bodies[k].regular);
+      Options const options = read_options(assembly.formulations[k], assembly.materials[k], assembly.cfl);
       bodies_.push_back(std::make_unique<JstBody>(assembly, set_, k, options, *backend_));
       alpha_.push_back(options.cfl);
       monitors_.push_back(options.cfl > 0 ? nullptr : std::make_unique<StabilityMonitor>(*bodies_.back(), *backend_));
@@ -47,7 +46,7 @@ class Solver final : public Formulation {
   double stable_time_step() const override {
     double dt = steady_time_step();
     bool const monitored = std::any_of(monitors_.begin(), monitors_.end(), [](auto const& m) { return m != nullptr; });
-    if (monitored) dt = std::min(dt, last_step_ > 0 ? growth_from(last_step_ / dt) * last_step_ : first_share * dt);
+    if (monitored) dt = std::min(dt, last_step_ > 0 ? growth * last_step_ : first_share * dt);
     return clip_step_to_end_time_of(bodies_, time_, dt);
   }
 
@@ -55,8 +54,7 @@ class Solver final : public Formulation {
     double dt = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
       double const c = largest_speed_[k], h = bodies_[k]->state().constants.h_min;
-      double const share = bodies_[k]->options().hourglass() ? margin_with_hourglass : margin;
-      dt = std::min(dt, monitors_[k] ? share * monitors_[k]->step(c) : alpha_[k] * h / c);  // (44)
+      dt = std::min(dt, monitors_[k] ? margin * monitors_[k]->step(c) : alpha_[k] * h / c);  // (44)
     }
     return dt;
   }
@@ -70,12 +68,10 @@ class Solver final : public Formulation {
     }
     rule.first = first_share * rule.settled;
     rule.growth = growth;
-    rule.late_growth = growth_from(1);
-    rule.late_from = near_limit * rule.settled;
     rule.limit =
         "the stability limit of the fastest mode, measured (run.cfl, without a default here, would replace it)";
     rule.more_stages = StabilityMonitor::stages_per_step;
-    rule.setup_stages = monitors_.front()->setup_stages();
+    rule.setup_stages = StabilityMonitor::setup_stages;
     return rule;
   }
 
@@ -121,10 +117,7 @@ class Solver final : public Formulation {
     return d;
   }
 
-  std::vector<FieldInfo> fields() const override {
-    return output_field_names(std::any_of(bodies_.begin(), bodies_.end(),
-                                          [](auto const& body) { return body->state().history.data != nullptr; }));
-  }
+  std::vector<FieldInfo> fields() const override { return output_field_names(); }
   void sample(std::string_view field, std::span<double> values) const override {
     int number = 0;
     for (auto const& body : bodies_) {
@@ -158,12 +151,6 @@ class Solver final : public Formulation {
   }
 
  private:
-  /// The largest growth of the step after one at this fraction of the limit.
-  double growth_from(double share) const {
-    bool const hourglass =
-        std::any_of(bodies_.begin(), bodies_.end(), [](auto const& body) { return body->options().hourglass(); });
-    return hourglass && share > near_limit ? growth_near_limit : growth;
-  }
   void find_largest_speeds() {
     largest_speed_.clear();
     for (auto const& body : bodies_) largest_speed_.push_back(backend_->largest_wave_speed(body->state()));
@@ -173,7 +160,6 @@ class Solver final : public Formulation {
   void refresh(JstBody const& body) const {
     BodyState seen = body.state();
     if (body.options().variables == Variables::displacement) backend_->update_deformation(seen);
-    if (body.options().hourglass()) backend_->observe_energy(seen);
   }
   static constexpr int no_wave_speed = 3;  ///< a code of FailureSlot
   static FailureSlot failure_of(JstBody const& body, double largest_speed);
@@ -248,17 +234,8 @@ void Solver::each_evolved(JstBody const& body, std::size_t number, F const& f) c
   f(fmt::format("body{}_wave_speed", number), s.wave_speed, 1);
   bool const area = s.constants.variables == Variables::pFHJ, volume = evolves_volume(s.constants.variables);
   if (area) f(fmt::format("body{}_area_map", number), s.H, 9);
-  if (volume && !(s.constants.kappa_filtered > 0)) f(fmt::format("body{}_volume_ratio", number), s.J, 1);
-  if (s.history.data != nullptr) {
-    f(fmt::format("body{}_last_deformation_gradient", number), s.last_F, 9);
-    f(fmt::format("body{}_solid_history", number), s.history, SolidFields::size);
-  }
+  if (volume) f(fmt::format("body{}_volume_ratio", number), s.J, 1);
   if (s.constants.integrator == Integrator::verlet) f(fmt::format("body{}_acceleration", number), s.rate, D);
-  if (body.options().hourglass()) {
-    f(fmt::format("body{}_hourglass_force", number), s.hourglass_force, D);
-    f(fmt::format("body{}_hourglass_stress", number), s.hourglass_stress, D * D);
-  }
-  if (volume && s.filter_input.data != nullptr) f(fmt::format("body{}_filter_input", number), s.filter_input, 1);
   if (s.constants.kappa_filtered > 0) {
     f(fmt::format("body{}_filtered_ratio", number), s.filtered_ratio, 1);
     f(fmt::format("body{}_filtered_pressure", number), s.filtered_pressure, 1);
@@ -273,7 +250,7 @@ void Solver::save(StateWriter& writer) const {
     });
     auto const& totals = body.state().totals;
     std::array const energy_totals{totals.stabilisation_loss, totals.projection_loss, body.external_work().over_ranks(),
-                                   totals.damping_loss, totals.viscous_work};
+                                   totals.damping_loss};
     writer.put(fmt::format("body{}_energy_books", k), energy_totals);
     writer.put(fmt::format("body{}_supports", k), body.boundary().state());
     if (monitors_[k]) writer.put(fmt::format("body{}_step_limit", k), monitors_[k]->state());
@@ -332,9 +309,9 @@ void Solver::load(StateReader& reader) {
       load_local(reader, name, body, field, components);
     });
     place_stages(body);
-    std::array<double, 5> energy_totals{};
+    std::array<double, 4> energy_totals{};
     reader.get(fmt::format("body{}_energy_books", k), energy_totals);
-    body.state().totals = {energy_totals[0], energy_totals[1], energy_totals[3], energy_totals[4]};
+    body.state().totals = {energy_totals[0], energy_totals[1], energy_totals[3]};
     body.external_work().set(energy_totals[2]);
     load_part(reader, fmt::format("body{}_supports", k), body.boundary());
     if (!monitors_[k]) continue;

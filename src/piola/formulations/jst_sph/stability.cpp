@@ -12,13 +12,7 @@
 namespace piola::jst_sph {
 namespace {
 
-constexpr int first_rounds = 40;  ///< power iterations from a random start
-/// On a lattice at rest the iterations come within 1 % of the limit in 24. A lattice of `many` particles or more spends
-/// no more on it, and uses that measurement also for the start, if it starts undeformed. Clouds have modes that take
-/// longer to converge.
-constexpr Index many = 10'000;
-constexpr int repeats = 5, repeats_of_many = 3, rounds_of_repeat = first_rounds / repeats;
-constexpr int later_rounds = 3;  ///< and from the mode of the last measurement
+constexpr int later_rounds = 3;  ///< power iterations from the mode of the last measurement
 constexpr int interval = 50;     ///< steps between measurements: they cost 4 right-hand sides
 constexpr int haste = 10;        ///< or these, when the largest wave speed has changed by `change`
 constexpr double change = 0.2;
@@ -40,10 +34,7 @@ class Kept {
                                             {state.wave_speed, 1},
                                             {state.volume_ratio, 1},
                                             {state.filtered_ratio, 1},
-                                            {state.filtered_pressure, 1},
-                                            {state.filter_input, 1},
-                                            {state.hourglass_force, D},
-                                            {state.hourglass_stress, D * D}})
+                                            {state.filtered_pressure, 1}})
       if (field.data != nullptr) parts_.push_back({field, components, values_of(field, components)});
   }
   void restore() const {
@@ -87,21 +78,9 @@ class Operator {
   /// `trial` shares its fields with the body. `about`: the state that the operator is about; null: the undeformed body.
   Operator(JstBody& body, BodyState const& trial, Backend const& backend, Kept const* about)
       : body_(body), trial_(trial), backend_(backend), D_(trial.dimension) {
-    if (about != nullptr) {
-      F_ = about->values_of(trial_.F);
-      x_ = about->values_of(trial_.x);
-    }
+    if (about != nullptr) F_ = about->values_of(trial_.F);
     rest_.resize(size_of_mode(body));
     rates_at(rest_, {});
-  }
-
-  /// Viscous forces act this many times as much.
-  void multiply_damping(double factor) {
-    auto& k = trial_.constants;
-    auto const& own = body_.state().constants;
-    k.eps4 = factor * own.eps4;
-    k.hourglass.ahead = factor * own.hourglass.ahead;
-    k.hourglass.bulk_ahead = factor * own.hourglass.bulk_ahead;
   }
 
   /// |K u| / |u| of the last of some power iterations, which leave the dominant mode in u, of the particles of this
@@ -150,17 +129,13 @@ class Operator {
       *x = body_.volume(i) * sum;
     });
   }
-  /// Makes of the displacement u its rates, minus those without displacement if there are any to take away. Hourglass
-  /// forces see positions, too.
+  /// Makes of the displacement u its rates, minus those without displacement if there are any to take away.
   void rates_at(std::vector<double>& u, std::vector<double> const& rest) {
-    bool const hourglass = trial_.constants.hourglass.modulus > 0;
     each_particle([&](Index i) {
-      auto const X = body_.X(i);
       for (int c = 0; c < D_; ++c) {
         auto const k = at(i, c);
         JstBody::set(trial_.v, i, c, u[k]);
         JstBody::set(trial_.rate, i, c, 0);
-        if (hourglass) JstBody::set(trial_.x, i, c, x_ != nullptr ? x_[k] : X[static_cast<std::size_t>(c)]);
         for (int d = 0; d < D_; ++d)
           JstBody::set(trial_.F, i, c * D_ + d,
                        F_ != nullptr ? F_[k * static_cast<std::size_t>(D_) + static_cast<std::size_t>(d)]
@@ -181,7 +156,7 @@ class Operator {
   BodyState trial_;
   Backend const& backend_;
   int D_;
-  double const *F_ = nullptr, *x_ = nullptr;
+  double const* F_ = nullptr;
   std::vector<double> rest_;
 };
 
@@ -193,14 +168,14 @@ BodyState trial_of(JstBody& body, FailureSlot& failure) {
   trial.multipliers = nullptr;
   trial.trial = true;
   trial.constants.project = false;
-  trial.constants.variables = Variables::pF;
   return trial;
 }
 
 /// Rate of the stabilisation per wave speed [1/m]: largest eigenvalue of eps4 h^3 L* L + eps2 h L.
 double damping_per_speed(JstBody& body, Backend const& backend) {
   auto const& k = body.state().constants;
-  if (k.biharmonic == Biharmonic::none) return 0;
+  if (k.eps2 == 0 && k.eps4 == 0) return 0;
+  Kept const kept(body);
   FailureSlot failure;
   BodyState trial = trial_of(body, failure);
   constexpr double almost_no_stress = 1e-12;
@@ -217,7 +192,8 @@ double damping_per_speed(JstBody& body, Backend const& backend) {
   Operator L_star_L(body, trial, backend, nullptr);
   std::vector<double> mode(size_of_mode(body));
   each_of_mode(body, mode, [](double& value, std::uint64_t number) { value = pseudo_random(number); });
-  double const sigma2 = L_star_L.dominant(mode, first_rounds) * k.h_min;  // times h^4
+  double const sigma2 = L_star_L.dominant(mode, StabilityMonitor::first_rounds) * k.h_min;  // times h^4
+  kept.restore();
   return (k.eps4 * sigma2 + k.eps2 * std::sqrt(sigma2)) / k.h_min;
 }
 
@@ -229,83 +205,14 @@ double largest_step(double frequency, double damping) {
   return (-damping + std::sqrt(damping * damping + 4 * w2)) / w2;
 }
 
-double largest_step(double eigenvalue) { return largest_step(std::sqrt(eigenvalue), 0); }
-
 StabilityMonitor::StabilityMonitor(JstBody& body, Backend const& backend) : body_(body), backend_(backend) {
   mode_.resize(size_of_mode(body));
-  bool const hourglass = body.options().hourglass();
-  {
-    Kept const kept(body);
-    if (hourglass)
-      measure_at_rest();
-    else
-      damping_ = damping_per_speed(body, backend);
-    kept.restore();
-  }
-  double const wave_speed = backend.largest_wave_speed(body.state());
-  if (hourglass && is_large_lattice() && is_undeformed())
-    wave_speed_ = wave_speed;  // the measurement at rest belongs to this state
-  else
-    measure(first_rounds, wave_speed);
-  if (!hourglass) frequency_per_speed_ = frequency_ / wave_speed_;
-}
-
-bool StabilityMonitor::is_large_lattice() const { return body_.body().regular && body_.particles() >= many; }
-
-bool StabilityMonitor::is_undeformed() const {
-  auto const& s = body_.state();
-  double moved = 0;
-  for (Index i = body_.own().first; i < body_.own().last && moved == 0; ++i) {
-    auto const X = body_.X(i);
-    for (int c = 0; c < s.dimension; ++c) {
-      if (JstBody::value(s.x, i, c) != X[static_cast<std::size_t>(c)]) moved = 1;
-      for (int d = 0; d < s.dimension; ++d)
-        if (JstBody::value(s.F, i, c * s.dimension + d) != (c == d ? 1 : 0)) moved = 1;
-    }
-  }
-  if (body_.shared()) comm::allreduce_max(moved);
-  return moved == 0;
-}
-
-double StabilityMonitor::setup_stages() const {
-  constexpr double around = 1;  // the state without displacement
-  bool const hourglass = body_.options().hourglass();
-  if (hourglass && is_large_lattice()) return repeats_of_many * rounds_of_repeat + around;
-  return 2 * (first_rounds + around);
-}
-
-/// The limit of the undeformed body. The eigenvalue depends on the step in it, which a few measurements find.
-void StabilityMonitor::measure_at_rest() {
-  auto const& k = body_.state().constants;
-  FailureSlot failure;
-  BodyState trial = trial_of(body_, failure);
-  trial.constants.exact_speed = false;  // the speed is that of the state, which this is not
-  refresh_mode(body_, mode_);
-  Operator forces(body_, trial, backend_, nullptr);
-  limit_at_rest_ = k.h_min / k.c_p0;
-  speed_at_rest_ = k.c_p0;
-  for (int repeat = 0; repeat < (is_large_lattice() ? repeats_of_many : repeats); ++repeat) {
-    forces.multiply_damping(2 / limit_at_rest_);
-    limit_at_rest_ = largest_step(forces.dominant(mode_, rounds_of_repeat));
-  }
-  limit_ = limit_at_rest_;
-}
-
-/// About the state as it is, with the step of the last measurement.
-void StabilityMonitor::measure_all_forces(int rounds, double wave_speed) {
-  Kept const kept(body_);
-  FailureSlot failure;
-  refresh_mode(body_, mode_);
-  Operator tangent(body_, trial_of(body_, failure), backend_, &kept);
-  tangent.multiply_damping(2 / limit_);
-  limit_ = largest_step(tangent.dominant(mode_, rounds));
-  kept.restore();
-  wave_speed_ = wave_speed;
-  steps_ = 0;
+  damping_ = damping_per_speed(body, backend);
+  measure(first_rounds, backend.largest_wave_speed(body.state()));
+  frequency_per_speed_ = frequency_ / wave_speed_;
 }
 
 void StabilityMonitor::measure(int rounds, double wave_speed) {
-  if (body_.options().hourglass()) return measure_all_forces(rounds, wave_speed);
   Kept const kept(body_);
   wave_speed_ = wave_speed;
   refresh_mode(body_, mode_);
@@ -325,22 +232,19 @@ void StabilityMonitor::update(double wave_speed) {
 }
 
 double StabilityMonitor::step(double wave_speed) const {
-  if (body_.options().hourglass())
-    return std::min(limit_ / std::max(1.0, wave_speed / wave_speed_),
-                    limit_at_rest_ / std::max(1.0, trust * wave_speed / speed_at_rest_));
   // A lower wave speed does not lower the frequency: the largest one may have been elsewhere than the fastest mode.
   double const measured = frequency_ * std::max(1.0, wave_speed / wave_speed_);
   return largest_step(std::max(measured, trust * frequency_per_speed_ * wave_speed), damping_ * wave_speed);
 }
 
 std::vector<double> StabilityMonitor::state() const {
-  std::vector<double> s{body_.options().hourglass() ? limit_ : frequency_, wave_speed_, steps_};
+  std::vector<double> s{frequency_, wave_speed_, steps_};
   return with_mode(body_, std::move(s), mode_);
 }
 
 void StabilityMonitor::restore(std::vector<double> const& state) {
   auto const numbers = without_mode(body_, 3, state, mode_);
-  (body_.options().hourglass() ? limit_ : frequency_) = numbers[0];
+  frequency_ = numbers[0];
   wave_speed_ = numbers[1];
   steps_ = numbers[2];
 }

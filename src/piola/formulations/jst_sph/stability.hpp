@@ -10,23 +10,19 @@ namespace piola::jst_sph {
 /// circle while  dt^2 frequency^2 + 2 dt damping <= 4.  Both in 1/s; infinity if both are zero.
 double largest_step(double frequency, double damping);
 
-/// Largest step [s] for the largest eigenvalue of K + (2 / dt) D of internal forces K and viscous ones D [1/s2]: the
-/// same rule if both have different modes.
-double largest_step(double eigenvalue);
-
 /// Monitors the step limit of one body: the largest frequency of its internal forces about the current state, by power
 /// iterations from the last mode, and the largest rate of its stabilisation. Between measurements both scale with the
-/// largest wave speed, which at the start also gives a lower bound of the frequency. With hourglass forces, whose
-/// viscous part is not small and grows like the elastic part, one eigenvalue of both is measured, at least that of the
-/// undeformed body. The state is left unchanged.
+/// largest wave speed, which at the start also gives a lower bound of the frequency. The state is left unchanged.
 class StabilityMonitor {
  public:
   /// Cost of later measurements in right-hand sides per step.
   static constexpr double stages_per_step = 4.0 / 50;
   /// Collectives of later measurements per step: the mode, motions of right-hand sides, three maxima, two sums.
   static constexpr double collectives_per_step = 9.0 / 50;
-  /// Cost of the first measurements in right-hand sides, with overhead.
-  double setup_stages() const;
+  /// Power iterations from a random start.
+  static constexpr int first_rounds = 40;
+  /// Cost of the first measurements in right-hand sides: each with one about the state without displacement.
+  static constexpr double setup_stages = 2 * (first_rounds + 1);
 
   /// Measures both from a random start.
   StabilityMonitor(JstBody& body, Backend const& backend);
@@ -44,11 +40,7 @@ class StabilityMonitor {
   void restore(std::vector<double> const& state);
 
  private:
-  bool is_large_lattice() const;
-  bool is_undeformed() const;
   void measure(int rounds, double wave_speed);
-  void measure_at_rest();
-  void measure_all_forces(int rounds, double wave_speed);
 
   JstBody& body_;
   Backend const& backend_;
@@ -58,10 +50,6 @@ class StabilityMonitor {
   double wave_speed_ = 0;           ///< m/s, largest one at the last measurement
   double damping_ = 0;              ///< 1/m: rate of the stabilisation per wave speed
   double steps_ = 0;                ///< since the last measurement
-  // With hourglass forces, instead of frequencies and damping.
-  double limit_ = 0;          ///< s, at the last measurement
-  double limit_at_rest_ = 0;  ///< s, of the undeformed body
-  double speed_at_rest_ = 0;  ///< m/s
 };
 
 }  // namespace piola::jst_sph

@@ -25,18 +25,11 @@ enum class Variables {
 /// Whether the volume ratio is evolved.
 constexpr bool evolves_volume(Variables v) { return v == Variables::pFJ || v == Variables::pFHJ; }
 
-/// Form of gradients, and the internal force that is conjugate to each by power balance.
-enum class GradientForm {
-  corrected,        ///< corrected gradient, eqs. (21) and (29c)
-  uncorrected,      ///< raw kernel gradient, eqs. (22) and (30)
-  corrected_kernel  ///< corrected gradient of the corrected kernel, eqs. (23) and (31)
-};
-
 /// Form of the biharmonic stabilisation, from the corrected Laplacian L.
 enum class Biharmonic {
   none,
-  adjoint,  ///< D4 = -L* (eps4 c h^3 L p): never feeds energy
-  literal   ///< D4 = -eps4 c h^3 L (L p), eq. (37b)
+  adjoint,  ///< scheme "filtered": D4 = -L* (eps4 c h^3 L p), never feeds energy
+  literal   ///< scheme "paper": D4 = -eps4 c h^3 L (L p), eq. (37b)
 };
 
 /// A velocity component of a particle that a support holds at rest for the whole run.
@@ -62,33 +55,13 @@ struct MultiplierCall {
   double dt;
 };
 
-/// Layout of the field `history` of solids in rate form.
-struct SolidFields {
-  enum : int {
-    S,                   ///< deviatoric Cauchy stress [Pa], 6 values
-    plastic_strain = 6,  ///< equivalent plastic strain
-    temperature,         ///< [K]
-    damage,              ///< 0 to 1
-    plastic_work,        ///< per reference volume [J/m^3]
-    pressure,            ///< positive in compression [Pa]
-    energy,              ///< specific internal energy [J/kg]
-    size
-  };
-};
+/// Number of passes n of the volumetric filter B = S^n.
+inline constexpr int filter_passes = 2;
 
 /// Time integration.
 enum class Integrator {
-  tvd_rk2,  ///< two stages, eq. (43)
-  verlet    ///< kick, drift, kick: one right-hand side, exact angular momentum
-};
-
-/// The energy of the part of a deformation that gradients do not see (docs/theory/jst-sph-conservative.md).
-struct HourglassConstants {
-  double modulus = 0;     ///< mu / (4 m), m normalising the weights of pairs [Pa]; 0: no such energy
-  double stiffness = 0;   ///< xi_0
-  double stiffening = 0;  ///< xi_1 / mu [1/Pa]
-  double ahead = 0;       ///< tau: look-ahead time of the deformation [s]
-  double bulk_ahead = 0;  ///< look-ahead time of the volume ratio before the filter [s]
+  tvd_rk2,  ///< scheme "paper" and displacement variables: two stages, eq. (43)
+  verlet    ///< scheme "filtered": kick, drift, kick: one right-hand side, exact angular momentum
 };
 
 struct Constants {
@@ -100,19 +73,14 @@ struct Constants {
   double eps2_J, eps4_J;  ///< as eps2 and eps4, for J
   double kappa_local;     ///< part of the bulk modulus for the local volume ratio [Pa]
   double kappa_filtered;  ///< part for the filtered volume ratio [Pa]; 0: no filter
-  int filter_passes;      ///< n of B = S^n
-  HourglassConstants hourglass;
   double total_volume;    ///< sum of tributary volumes [m^D]
   double centre[3];       ///< origin of arms [m], near the body: keeps sums of moments accurate
-  double kernel_at_zero;  ///< V_kernel W(0) of the gradient's support, for the corrected kernel [1]
   Variables variables;
-  GradientForm gradient, force;
   bool exact_speed;  ///< p-wave speed from the law's tangent, else the estimate c_p0 / lambda_min
   Biharmonic biharmonic;
   Integrator integrator;
-  bool project;        ///< angular and linear momentum projection
-  bool without_rigid;  ///< stabilise the motion without its rigid part
-  bool mirrored;       ///< mirror planes: no rigid motion is free
+  bool project;   ///< angular and linear momentum projection
+  bool mirrored;  ///< mirror planes: no rigid motion is free
 };
 
 /// Whether the evolved volume ratio is stabilised, eq. (38).
@@ -123,7 +91,6 @@ struct StepTotals {
   double stabilisation_loss = 0;  ///< J, energy removed by D(p)
   double projection_loss = 0;     ///< J, energy removed by the projection of T
   double damping_loss = 0;        ///< J, energy removed by damping
-  double viscous_work = 0;        ///< J, done against forces with a viscous part, with their initial energy
 };
 
 struct BodyState {
@@ -146,23 +113,12 @@ struct BodyState {
   FieldRef second;  ///< neighbour data of the second sweep: w, then for the adjoint form alpha and beta, then A
   FieldRef w;       ///< part of `second`: argument of the second Laplacian
   FieldRef A;       ///< part of `second`: (V / V_kernel) P C [Pa]
-  // Hourglass energy. Neighbour data: position and deformation gradient a look-ahead time later, volume times s. Of the
-  // particle: acceleration, stress, twice the work over the step of forces with a viscous part, per volume; for
-  // observers, energy per volume and filtered volume ratio.
-  FieldRef ahead, hourglass_force, hourglass_stress, viscous_work, hourglass_energy, seen_ratio;
-  // Filtered volumetric energy: volume ratio, its filtered form, pressure of the filtered part; sinkhorn scaling d, sum
+  // Filtered volumetric energy: volume ratio, its filtered form, pressure of the filtered part; Sinkhorn scaling d, sum
   // of the filter's weights without the diagonal; two buffers of d V f for neighbours.
   FieldRef volume_ratio, filtered_ratio, filtered_pressure, filter_scale, filter_sum, filter_source[2];
-  FieldRef filter_input;     ///< input of the filter at the particle itself, if that is not the volume ratio
-  FieldRef ratio_change;     ///< of the volume ratio in the step
-  FieldRef ratio_increment;  ///< filtered {p,F,J} and {p,F,H,J}: increment of the filtered ratio in the step
-  // Corrected kernel: full correction matrix, sum V grad W / sum V W; sum V W (u_b - u_a); A_b gamma_b; sum of these.
-  FieldRef full_correction, gamma, kernel_difference, kernel_force, kernel_force_sum;
   // Within a step.
   FieldRef v_n, F_star, wave_speed_next, rate;
   FieldRef H_star, J_n, J_next, J_rate;
-  // Solids in rate form, at the end of the last step: deformation gradient (3 x 3), and the rest as in SolidFields.
-  FieldRef last_F, history;
 
   SupportComponent* supports = nullptr;
   Index support_count = 0;
@@ -178,20 +134,17 @@ struct BodyState {
   StepTotals totals;
   DeferredGlobalSum* external_work = nullptr;  ///< of loads and driven supports [J]
   double largest_wave_speed = 0;               ///< at the end of the last step, over all ranks [m/s]
-  bool starting = false;                       ///< the step makes the state of time 0 consistent
-  bool trial = false;  ///< a step that measures the stiffness: solids do not yield and store no state
+  bool trial = false;                          ///< a step that measures the stiffness: supports store no reaction
 };
 
 /// The loops of one instruction set. Every entry accepts bodies of 1, 2 or 3 dimensions.
 struct Backend {
   char const* name;
   int lanes;
-  void (*step)(BodyState& body, double dt);          ///< Algorithm 1, one step of one body
-  void (*update_wave_speed)(BodyState& body);        ///< from the current F
-  double (*largest_wave_speed)(BodyState& body);     ///< m/s
-  void (*update_deformation)(BodyState& body);       ///< displacement variables: F from x
-  void (*commit_solid)(BodyState& body, double dt);  ///< solids in rate form: stores the state at the F of the body
-  void (*observe_energy)(BodyState& body);           ///< hourglass energy and filtered volume ratio of the state
+  void (*step)(BodyState& body, double dt);       ///< Algorithm 1, one step of one body
+  void (*update_wave_speed)(BodyState& body);     ///< from the current F
+  double (*largest_wave_speed)(BodyState& body);  ///< m/s
+  void (*update_deformation)(BodyState& body);    ///< displacement variables: F from x
 };
 
 /// The instruction set of that name, or the best one of this processor for "auto"; nullptr if it is unknown or not

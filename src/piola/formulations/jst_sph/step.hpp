@@ -3,12 +3,12 @@
 #include "piola/domain/fused_allreduce.hpp"
 #include "piola/domain/halo.hpp"
 #include "piola/formulations/jst_sph/boundary_passes.hpp"
-#include "piola/formulations/jst_sph/filter.hpp"
 #include "piola/formulations/jst_sph/forces.hpp"
 #include "piola/formulations/jst_sph/stress_passes.hpp"
 #include "piola/materials/laws.hpp"
 
-/// One time step of JST-SPH, line by line as Algorithm 1 of Lee et al. (2016); equation numbers at the right.
+/// One time step of the scheme "paper" and of displacement variables, line by line as Algorithm 1 of Lee et al. (2016);
+/// equation numbers at the right.
 namespace piola::jst_sph::inline PIOLA_BACKEND {
 
 template <int D, class Loader>
@@ -20,7 +20,6 @@ class Step {
   void operator()(double dt) {
     stage({dt, false});                        // U* = U^n + dt U_dot(U^n)           (43)
     stage({dt, true});                         // U^(n+1) = (U^n + U* + dt U_dot*)/2 (43)
-    commit_solid<D>(b_, dt);                   // solids: their state at n + 1
     FieldRef const next = b_.wave_speed_next;  // c_p of the next step          step 2
     b_.wave_speed_next = b_.wave_speed;
     b_.wave_speed = next;
@@ -29,17 +28,14 @@ class Step {
   /// F from x, for displacement variables.
   void update_deformation() {
     halo_.refresh(b_.u);
-    if (b_.constants.gradient == GradientForm::corrected_kernel) sum_kernel_difference();
-    StoreDeformation<D> const store_F{correction(), write(b_.F)};
+    StoreDeformation<D> const store_F{read_reference(b_.C), write(b_.F)};
     exec::for_each_then(b_.slots, first_sweep<0>(), exec::erased(store_F));  // F = GRAD x                         (34)
   }
 
  private:
   void stage(StageUpdate const& stage) {
-    if (b_.constants.kappa_filtered > 0) filter(stage);  // J, q of this stage
     halo_.refresh(b_.u);
     differentiate(stage);  // F_dot, H_dot, J_dot, L v, L J, P, A, D2       (33) (36) (12)
-    if (b_.constants.force == GradientForm::corrected_kernel) sum_kernel_force();
     halo_.refresh(b_.second);
     FieldRef const* const ended = stage.second ? &b_.wave_speed_next : nullptr;
     StageBalance const balance = forces_(0.5 * stage.dt, ended);  // T, D4 and their projections   (29c) (37) (48) (51)
@@ -49,27 +45,14 @@ class Step {
     hold_supports(stage);                                                     // v_c = prescribed      step 8
   }
 
-  GradientCorrection<D> correction() const {
-    auto const& k = b_.constants;
-    return {k.gradient,
-            k.force,
-            read_reference(b_.C),
-            read_reference(b_.full_correction),
-            read_reference(b_.gamma),
-            read(b_.kernel_difference)};
-  }
-
   template <int Smoothed>
   DifferentiateVelocity<D, Smoothed, Loader> first_sweep() const {
     return {loader_, {read_neighbours(b_.u), read_reference(b_.alpha), read_reference(b_.beta)}};
   }
 
   void differentiate(StageUpdate const& stage) {
-    if (b_.constants.gradient == GradientForm::corrected_kernel) sum_kernel_difference();
     if (b_.constants.biharmonic == Biharmonic::none)
       differentiate<0>(stage);
-    else if (b_.constants.without_rigid)
-      differentiate<2 * D>(stage);
     else if (smooths_volume(b_.constants))
       differentiate<D + 1>(stage);
     else
@@ -79,26 +62,21 @@ class Step {
   template <int Smoothed>
   void differentiate(StageUpdate const& stage) {
     auto const sweep = first_sweep<Smoothed>();
-    RigidRate const rigid = Smoothed == 2 * D && b_.constants.without_rigid ? minus_rigid_motion() : RigidRate{};
     bool const to_F = stage.second || b_.constants.variables == Variables::displacement;
     FieldRef const& J_out = smooths_volume(b_.constants) ? b_.J_next : b_.J;
     EvolvedGeometry const evolved{
         read(b_.H),   read(b_.H_star), read(b_.J), read(b_.J_n), write(stage.second ? b_.H : b_.H_star),
         write(J_out), write(b_.J_n)};
-    StressAt const when = stage.second ? StressAt::stage : StressAt::start;
-    with_stress_law(b_, stage.dt, when, [&](auto const& law) {
+    with_law(b_.material, [&](auto const& law) {
       UpdateStress<D, Smoothed, std::decay_t<decltype(law)>> const update{law,
                                                                           b_.constants,
                                                                           stage,
-                                                                          correction(),
-                                                                          rigid,
+                                                                          read_reference(b_.C),
                                                                           read_reference(b_.V),
                                                                           read(b_.wave_speed),
                                                                           read(b_.F),
                                                                           read(b_.F_star),
                                                                           evolved,
-                                                                          read(b_.volume_ratio),
-                                                                          read(b_.filtered_pressure),
                                                                           write(to_F ? b_.F : b_.F_star),
                                                                           write(b_.A),
                                                                           write(b_.w),
@@ -108,44 +86,6 @@ class Step {
                                                                           b_.failure};
       exec::for_each_then(b_.slots, sweep, exec::erased(update));
     });
-  }
-
-  /// The rate that removes the rigid part of the motion.
-  RigidRate minus_rigid_motion() const {
-    using At = MotionTotals<D>;
-    SumMotion<D> const pass{b_.constants, read_reference(b_.V), read(b_.x), read(b_.v)};
-    auto const sums = reduce_over_ranks<At::size>(b_.halo != nullptr, b_.slots, pass, b_.partial);
-    return balancing_rate(rate_sums<D, At>(sums, At::v, At::moment_v, b_.constants.total_volume), D);
-  }
-
-  /// Volume ratios of the F at which this stage evaluates stress, and their filtered pressure.
-  void filter(StageUpdate const& stage) {
-    with_law(b_.material, [&](auto const& law) {
-      exec::for_each(b_.slots, ComputeVolumeRatio<D>{std::decay_t<decltype(law)>::small_strain,
-                                                     read(stage.second ? b_.F_star : b_.F), write(b_.volume_ratio)});
-    });
-    Filter<Loader> const filter(b_, loader_);
-    filter.prepare();
-    filter.smooth_ratio();
-  }
-
-  /// sum_b V W (u_b - u_a), of the corrected kernel's gradient                               (23)
-  void sum_kernel_difference() {
-    exec::for_each(
-        b_.slots,
-        SumKernel<D, true, Loader>{
-            loader_, {read_neighbours(b_.u)}, b_.constants.kernel_volume, 0, read(b_.u), write(b_.kernel_difference)});
-  }
-  /// sum_b V W A_b gamma_b, of its internal force                                            (31)
-  void sum_kernel_force() {
-    exec::for_each(b_.slots, ContractWithGamma<D>{read(b_.A), read_reference(b_.gamma), write(b_.kernel_force)});
-    halo_.refresh(b_.kernel_force);
-    exec::for_each(b_.slots, SumKernel<D, false, Loader>{loader_,
-                                                         {read_neighbours(b_.kernel_force)},
-                                                         b_.constants.kernel_volume,
-                                                         b_.constants.kernel_at_zero,
-                                                         read(b_.kernel_force),
-                                                         write(b_.kernel_force_sum)});
   }
 
   void advance_volume(StageUpdate const& stage, double mean) {
@@ -186,4 +126,4 @@ class Step {
   Halo halo_;
 };
 
-}  // namespace piola::jst_sph::inline PIOLA_MACHINE
+}  // namespace piola::jst_sph::inline PIOLA_BACKEND

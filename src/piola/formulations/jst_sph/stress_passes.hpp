@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/jst_sph/passes.hpp"
-#include "piola/formulations/jst_sph/solid_stress.hpp"
 #include "piola/materials/laws.hpp"
 
-/// From the first sums of a Runge-Kutta stage to the input of the second sweep: geometry, stress, stabilisation.
+/// From the first sums of a Runge-Kutta stage, scheme "paper" or displacement variables, to the input of the second
+/// sweep: geometry, stress, stabilisation.
 namespace piola::jst_sph::inline PIOLA_BACKEND {
 
 /// Records the lanes whose volume ratio is not positive, or NaN. Code 1: det F, code 2: the evolved J.
@@ -14,33 +14,6 @@ PIOLA_FN void record_inverted(FailureSlot* failure, Index i, Lanes const& J, int
   for (int l = 0; l < lane_count; ++l)
     if (!(lane(J, l) > 0)) exec::record(failure, i + l, code);
 }
-
-/// Gradients from raw sums, and stress in the form of the internal force, following Lee et al., Remarks 3 and 4.
-template <int D>
-struct GradientCorrection {
-  GradientForm gradient_form, force_form;
-  ReferenceView C, full, gamma;
-  View difference;  ///< corrected kernel: sum_b V W (u_b - u_a)
-
-  PIOLA_FN Mat<D, Lanes> gradient(Index i, Mat<D, Lanes> const& raw) const {
-    if (gradient_form == GradientForm::corrected) return raw * C.symmetric<D, Lanes>(i);
-    if (gradient_form == GradientForm::uncorrected) return raw;
-    return (raw - outer(difference.vector<D, Lanes>(i), gamma.vector<D, Lanes>(i))) * full_correction(i);
-  }
-  /// P C^T: the stress whose divergence in raw form is the internal force.
-  PIOLA_FN Mat<D, Lanes> stress(Index i, Mat<D, Lanes> const& P) const {
-    if (force_form == GradientForm::corrected) return P * C.symmetric<D, Lanes>(i);
-    if (force_form == GradientForm::uncorrected) return P;
-    return P * transpose(full_correction(i));
-  }
-
- private:
-  PIOLA_FN Mat<D, Lanes> full_correction(Index i) const {
-    Mat<D, Lanes> r;
-    for (int c = 0; c < D * D; ++c) r.c[c] = full.scalar<Lanes>(i, c);
-    return r;
-  }
-};
 
 /// Views of H and J if these are evolved; otherwise without data.
 struct EvolvedGeometry {
@@ -66,30 +39,17 @@ PIOLA_FN Lanes estimated_wave_speed(Constants const& k, Mat<3, Lanes> const& F) 
 /// Algorithm 1). At least the shear wave speed at rest, because laws that soften under compression lose their modulus
 /// there.
 template <int D, class Law>
-PIOLA_FN Lanes wave_speed_of(Law const& law, Constants const& k, Mat<3, Lanes> const& F, Index i) {
-  if constexpr (std::is_same_v<Law, SolidStress>) {
-    // In the current state, in reference lengths along the most compressed direction.
-    return law.sound_speed(i, determinant(F)) / square_root(maximum(smallest_stretch_squared_in<D>(F), Lanes(1e-12)));
-  } else {
-    if (k.exact_speed) {
-      Vec<3, Lanes> const l = principal_stretches_squared(F);
-      Lanes const modulus = maximum(law.largest_modulus(l[0], l[1], l[2]), Lanes(law.mu));
-      return square_root((1.0 / k.rho0) * modulus);
-    }
-    return estimated_wave_speed<D>(k, F);
-  }
-}
-
-/// p = kappa_local (J - 1) + q, if the volumetric energy is filtered.
-PIOLA_FN Lanes acting_pressure(Constants const& k, View const& volume_ratio, View const& q, Index i) {
-  return k.kappa_local * (volume_ratio.scalar<Lanes>(i) - 1.0) + q.scalar<Lanes>(i);
+PIOLA_FN Lanes wave_speed_of(Law const& law, Constants const& k, Mat<3, Lanes> const& F) {
+  if (!k.exact_speed) return estimated_wave_speed<D>(k, F);
+  Vec<3, Lanes> const l = principal_stretches_squared(F);
+  Lanes const modulus = maximum(law.largest_modulus(l[0], l[1], l[2]), Lanes(law.mu));
+  return square_root((1.0 / k.rho0) * modulus);
 }
 
 /// From the first sums to the input of the second sweep:
 ///   F_dot_a = (sum_b s (v_b - v_a) (x) r) C_a,  H_dot = F x F_dot,  J_dot = H : F_dot       (33)
 ///   A_a = (V_a / V_kernel) P(F, H, J) C_a                             (12), folded for (29c)
-///   w_a = L f_a  or  eps4 c_a h^3 V_a L f_a,  f = v, and J where it is stabilised           (37), (38)
-/// or, without the rigid part of the motion, L v' = L v + spin cross L x;
+///   w_a = L f_a,  f = v, and J where it is stabilised                                       (37), (38)
 ///   D2_a = eps2 c_a h L f_a, written to `rate` and `J_rate`           (36)
 ///   stage 1: F* = F^n + dt F_dot;  stage 2: F^(n+1) = 1/2 (F^n + F* + dt F_dot*)            (43)
 /// and the same for H and J. For displacement variables F_a = (sum_b s (x_b - x_a) (x) r) C_a instead (34).
@@ -99,22 +59,19 @@ struct UpdateStress {
   Law law;
   Constants k;
   StageUpdate stage;
-  GradientCorrection<D> correction;
-  RigidRate without_rigid;
-  ReferenceView V;
+  ReferenceView C, V;
   View wave_speed, F_n, F_star;
   EvolvedGeometry evolved;
-  View volume_ratio, filtered_pressure;  ///< of this stage, if the volumetric energy is filtered
   WriteView F_out, A, w, rate, J_rate, wave_speed_next;
   FailureSlot* failure;
 
   PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
-    Mat<D, Lanes> const gradient = correction.gradient(i, raw_gradient<D>(in, i));
+    Mat<D, Lanes> const gradient = raw_gradient<D>(in, i) * C.symmetric<D, Lanes>(i);
     Lanes const volume = V.scalar<Lanes>(i);
     Mat<D, Lanes> const F = deform(i, gradient, volume);
     Mat<D, Lanes> const P = restrict_to<D>(stress(i, embed<D>(F), gradient));
-    A.matrix<D>(i, (volume * (1.0 / k.kernel_volume)) * correction.stress(i, P));
-    if constexpr (Smoothed > 0) stabilise(i, in, volume);
+    A.matrix<D>(i, (volume * (1.0 / k.kernel_volume)) * (P * C.symmetric<D, Lanes>(i)));
+    if constexpr (Smoothed > 0) stabilise(i, in);
   }
 
  private:
@@ -133,21 +90,12 @@ struct UpdateStress {
     F_out.matrix<D>(i, next);
     Mat<3, Lanes> const full = embed<D>(next);
     record_inverted(failure, i, determinant(full));
-    if (stage.second) wave_speed_next.scalar(i, wave_speed_of<D>(law, k, full, i));
+    if (stage.second) wave_speed_next.scalar(i, wave_speed_of<D>(law, k, full));
     return F;
   }
 
   PIOLA_FN Mat<3, Lanes> stress(Index i, Mat<3, Lanes> const& F, Mat<D, Lanes> const& gradient) const {
-    if constexpr (std::is_same_v<Law, SolidStress>) {
-      return law.first_piola(i, F);
-    } else {
-      if (evolves_volume(k.variables)) return stress_of_evolved(i, F, gradient);
-      if constexpr (Law::volumetric_split) {
-        if (k.kappa_filtered > 0)
-          return law.stress_with_pressure(F, acting_pressure(k, volume_ratio, filtered_pressure, i));
-      }
-      return law.first_piola(F);
-    }
+    return evolves_volume(k.variables) ? stress_of_evolved(i, F, gradient) : law.first_piola(F);
   }
 
   /// P of evolved F, H and J, which the stage advances.
@@ -175,22 +123,12 @@ struct UpdateStress {
     return law.stress(F, H, J);
   }
 
-  PIOLA_FN void stabilise(Index i, exec::Scratch const& in, Lanes const& volume) const {
+  PIOLA_FN void stabilise(Index i, exec::Scratch const& in) const {
     Lanes const c = wave_speed.scalar<Lanes>(i);
-    double const h3 = k.h_min * k.h_min * k.h_min;
-    bool const adjoint = k.biharmonic == Biharmonic::adjoint;
-    bool const without = Smoothed == 2 * D && k.without_rigid;
-    Vec<D, Lanes> turn;
-    if (without) {
-      Vec<D, Lanes> Lx;
-      for (int j = 0; j < D; ++j) Lx[j] = load<Lanes>(in.at(i, D * D + Smoothed - D + j));
-      turn = turned<D>(without_rigid.spin, Lx);
-    }
-    for (int j = 0; j < (without ? D : Smoothed); ++j) {
-      double const eps2 = j < D ? k.eps2 : k.eps2_J, eps4 = j < D ? k.eps4 : k.eps4_J;
-      Lanes Lf = load<Lanes>(in.at(i, D * D + j));
-      if (without) Lf = Lf + turn[j];
-      w.scalar(i, adjoint ? (eps4 * h3) * (c * volume) * Lf : Lf, j);
+    for (int j = 0; j < Smoothed; ++j) {
+      double const eps2 = j < D ? k.eps2 : k.eps2_J;
+      Lanes const Lf = load<Lanes>(in.at(i, D * D + j));
+      w.scalar(i, Lf, j);
       if (!(eps2 > 0)) continue;
       Lanes const harmonic = (eps2 * k.h_min) * c * Lf;
       if (j < D)
@@ -209,14 +147,14 @@ struct ComputeWaveSpeed {
   View F;
   WriteView wave_speed;
   PIOLA_FN void operator()(Index i) const {
-    wave_speed.scalar(i, wave_speed_of<D>(law, k, embed<D>(F.matrix<D, Lanes>(i)), i));
+    wave_speed.scalar(i, wave_speed_of<D>(law, k, embed<D>(F.matrix<D, Lanes>(i))));
   }
 };
 
 /// The wave speed of every particle of a body.
 template <int D>
 void compute_wave_speed(BodyState const& body) {
-  with_stress_law(body, 0, StressAt::start, [&](auto const& law) {
+  with_law(body.material, [&](auto const& law) {
     exec::for_each(body.slots, ComputeWaveSpeed<D, std::decay_t<decltype(law)>>{law, body.constants, read(body.F),
                                                                                 write(body.wave_speed)});
   });
@@ -225,21 +163,10 @@ void compute_wave_speed(BodyState const& body) {
 /// F_a = (sum_b s (x_b - x_a) (x) r) C_a  (34): the deformation gradient of the positions.
 template <int D>
 struct StoreDeformation {
-  GradientCorrection<D> correction;
+  ReferenceView C;
   WriteView F;
   PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
-    F.matrix<D>(i, correction.gradient(i, raw_gradient<D>(in, i)));
-  }
-};
-
-/// The volume ratio of the law's volumetric energy: det F, or 1 + tr e for small strain.
-template <int D>
-struct ComputeVolumeRatio {
-  bool small_strain;
-  View F;
-  WriteView volume_ratio;
-  PIOLA_FN void operator()(Index i) const {
-    volume_ratio.scalar(i, volume_ratio_of(small_strain, embed<D>(F.matrix<D, Lanes>(i))));
+    F.matrix<D>(i, raw_gradient<D>(in, i) * C.symmetric<D, Lanes>(i));
   }
 };
 
@@ -256,4 +183,4 @@ struct AdvanceVolume {
   }
 };
 
-}  // namespace piola::jst_sph::inline PIOLA_MACHINE
+}  // namespace piola::jst_sph::inline PIOLA_BACKEND

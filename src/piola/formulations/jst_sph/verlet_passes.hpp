@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/formulations/jst_sph/stress_passes.hpp"
 
-/// Passes of the default scheme: velocity Verlet, stabilisation without rigid motion, filtered volumetric energy.
+/// Passes of the scheme "filtered": velocity Verlet, stabilisation without rigid motion, filtered volumetric energy.
 /// Derivation: docs/theory/jst-sph-filtered.md.
 namespace piola::jst_sph::inline PIOLA_BACKEND {
 
@@ -25,19 +25,11 @@ struct KickAndDrift {
   }
 };
 
-/// Evolved H and J: views without data for {p,F}.
-struct CarriedGeometry {
-  View H, J;
-  WriteView H_out, J_out, increment;
-  bool starting;  ///< the increment starts at the undeformed state
-};
-
 /// F^(n+1) = F^n + dt GRAD v^(n+1/2), its wave speed and volume ratio; and the argument of the second Laplacian,
-///   L v' = L v + spin cross L x,  v' = v + spin cross (x - centre) + push: the motion without its rigid part.
-/// H and J as unknowns follow (1c) and (1d), integrated exactly along the straight way from F^n to F^(n+1):
-///   H^(n+1) = H^n + 1/2 (F^n + F^(n+1)) x dF,   J^(n+1) = J^n + det F^(n+1) - det F^n.
-/// Records the first particle whose new F is inverted or not a number.
-template <int D, bool Stabilised>
+///   w = eps4 c h^3 V L v',  L v' = L v + spin cross L x,  v' = v + spin cross (x - centre) + push: the motion without its
+/// rigid part; D2 = eps2 c h L v', written to `rate`. Records the first particle whose new F is inverted or not a
+/// number.
+template <int D>
 struct Deform {
   double dt;
   Constants k;
@@ -46,17 +38,13 @@ struct Deform {
   ReferenceView C, V;
   View F_in, wave_speed_in;
   WriteView F, wave_speed, volume_ratio, w, rate;
-  CarriedGeometry carried;
-  View filter_scale, filter_input_before;
-  WriteView filter_source;  ///< neighbour data of the first filter pass: g = d V J, or d V times the increment
-  WriteView filter_input;   ///< look-ahead value of J, if that is filtered
-  WriteView ratio_change;   ///< change of J in the step, for the energy balance
+  View filter_scale;
+  WriteView filter_source;  ///< neighbour data of the first filter pass: g = d V J
   FailureSlot* failure;
 
   PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
-    Mat<D, Lanes> const old = F_in.matrix<D, Lanes>(i);
-    Mat<D, Lanes> const gradient = raw_gradient<D>(in, i) * C.symmetric<D, Lanes>(i), step = dt * gradient;
-    Mat<D, Lanes> const next = old + step;
+    Mat<D, Lanes> const gradient = raw_gradient<D>(in, i) * C.symmetric<D, Lanes>(i);
+    Mat<D, Lanes> const next = F_in.matrix<D, Lanes>(i) + dt * gradient;
     F.matrix<D>(i, next);
     Mat<3, Lanes> const full = embed<D>(next);
     Lanes const J = determinant(full);
@@ -70,44 +58,11 @@ struct Deform {
     }
     Lanes const ratio = small_strain ? volume_ratio_of(true, full) : J;
     volume_ratio.scalar(i, ratio);
-    Lanes const seen = k.hourglass.bulk_ahead > 0 ? ratio_ahead(full, gradient, ratio) : ratio;
-    Lanes const filtered = evolves_volume(k.variables) ? carry(i, old, step, ratio, seen) : seen;
-    if (k.hourglass.bulk_ahead > 0) {
-      filter_input.scalar(i, seen);
-      ratio_change.scalar(i, ratio - volume_ratio_of(small_strain, embed<D>(old)));
-    }
-    if (k.kappa_filtered > 0) filter_source.scalar(i, filter_scale.scalar<Lanes>(i) * V.scalar<Lanes>(i) * filtered);
-    if constexpr (Stabilised) stabilise(i, in, c);
+    if (k.kappa_filtered > 0) filter_source.scalar(i, filter_scale.scalar<Lanes>(i) * V.scalar<Lanes>(i) * ratio);
+    stabilise(i, in, c);
   }
 
  private:
-  /// Look-ahead value J* = J + (time ahead) H : GRAD v.
-  PIOLA_FN Lanes ratio_ahead(Mat<3, Lanes> const& full, Mat<D, Lanes> const& gradient, Lanes const& ratio) const {
-    Mat<3, Lanes> const dF = embed_rate<D>(gradient);
-    return ratio + k.hourglass.bulk_ahead * (small_strain ? trace(dF) : contract(cofactor(full), dF));
-  }
-
-  /// The increment of J from the present volume ratio of F; from `seen` if the filter uses that.
-  PIOLA_FN Lanes carry(Index i, Mat<D, Lanes> const& old, Mat<D, Lanes> const& step, Lanes const& ratio,
-                       Lanes const& seen) const {
-    Mat<3, Lanes> const before = embed<D>(old);
-    if (k.variables == Variables::pFHJ) {
-      Mat<3, Lanes> const dF = embed_rate<D>(step);
-      carried.H_out.matrix<3>(i, carried.H.matrix<3, Lanes>(i) + tensor_cross(before + 0.5 * dF, dF));
-    }
-    Lanes increment = ratio - volume_ratio_of(small_strain, before);
-    if (k.kappa_filtered > 0) {
-      if (k.hourglass.bulk_ahead > 0) increment = seen - filter_input_before.scalar<Lanes>(i);
-      if (carried.starting) increment = seen - 1.0;
-      carried.increment.scalar(i, increment);
-      return increment;
-    }
-    Lanes const J = carried.J.scalar<Lanes>(i) + increment;
-    record_inverted(failure, i, J, 2);
-    carried.J_out.scalar(i, J);
-    return increment;
-  }
-
   PIOLA_FN void stabilise(Index i, exec::Scratch const& in, Lanes const& c) const {
     Vec<D, Lanes> Lv, Lx;
     for (int j = 0; j < D; ++j) {
@@ -116,60 +71,42 @@ struct Deform {
     }
     Vec<D, Lanes> const L = Lv + turned<D>(without_rigid.spin, Lx);
     double const h3 = k.h_min * k.h_min * k.h_min;
-    Lanes const factor = k.biharmonic == Biharmonic::adjoint ? (k.eps4 * h3) * (c * V.scalar<Lanes>(i)) : Lanes(1.0);
-    w.vector<D>(i, factor * L);
+    w.vector<D>(i, (k.eps4 * h3) * (c * V.scalar<Lanes>(i)) * L);
     if (k.eps2 > 0) rate.vector<D>(i, ((k.eps2 * k.h_min) * c) * L);
   }
 };
 
-/// A_a = (V_a / V_kernel) P C_a with P from F and the pressure p = kappa_local (J - 1) + q; without filter q = 0 and
-/// kappa_local is the bulk modulus. H and J may be unknowns of their own; with the filter the evolved volume ratio is
-/// the filtered one behind q.
+/// A_a = (V_a / V_kernel) P C_a with P from F and, with filtered volumetric energy, the pressure
+/// p = kappa_local (J - 1) + q.
 template <int D, class Law>
 struct WeightStress {
   Law law;
   Constants k;
   ReferenceView C, V;
-  View F, volume_ratio, filtered_pressure, H, J;
+  View F, volume_ratio, filtered_pressure;
   WriteView A;
 
-  PIOLA_FN void operator()(Index i) const { fold(i, law_stress(i)); }
-  /// As above, adding a stress to that of the law.
-  PIOLA_FN void operator()(Index i, Mat<D, Lanes> const& more) const { fold(i, law_stress(i) + more); }
-
- private:
-  PIOLA_FN Mat<D, Lanes> law_stress(Index i) const {
-    return restrict_to<D>(stress(i, embed<D>(F.matrix<D, Lanes>(i))));
-  }
-  PIOLA_FN void fold(Index i, Mat<D, Lanes> const& P) const {
+  PIOLA_FN void operator()(Index i) const {
+    Mat<D, Lanes> const P = restrict_to<D>(stress(i, embed<D>(F.matrix<D, Lanes>(i))));
     A.matrix<D>(i, (V.scalar<Lanes>(i) * (1.0 / k.kernel_volume)) * (P * C.symmetric<D, Lanes>(i)));
   }
-  PIOLA_FN Mat<3, Lanes> stress(Index i, Mat<3, Lanes> const& full) const {
-    if constexpr (std::is_same_v<Law, SolidStress>)
-      return law.first_piola(i, full);
-    else
-      return stress_of_geometry(i, full);
-  }
 
-  PIOLA_FN Mat<3, Lanes> stress_of_geometry(Index i, Mat<3, Lanes> const& full) const {
-    bool const area = k.variables == Variables::pFHJ;
+ private:
+  PIOLA_FN Mat<3, Lanes> stress(Index i, Mat<3, Lanes> const& full) const {
     if constexpr (Law::volumetric_split) {
       if (k.kappa_filtered > 0) {
-        Lanes const p = acting_pressure(k, volume_ratio, filtered_pressure, i);
-        if (area) return law.stress_with_pressure(full, H.matrix<3, Lanes>(i), determinant(full), p);
+        Lanes const p = k.kappa_local * (volume_ratio.scalar<Lanes>(i) - 1.0) + filtered_pressure.scalar<Lanes>(i);
         return law.stress_with_pressure(full, p);
       }
     }
-    if (area) return law.stress(full, H.matrix<3, Lanes>(i), J.scalar<Lanes>(i));
-    if (evolves_volume(k.variables)) return law.stress(full, cofactor(full), J.scalar<Lanes>(i));
     return law.first_piola(full);
   }
 };
 
 /// Deform and WeightStress of a block in one pass, without a filter between them.
-template <int D, bool Stabilised, class Law>
+template <int D, class Law>
 struct DeformAndWeightStress {
-  Deform<D, Stabilised> deform;
+  Deform<D> deform;
   WeightStress<D, Law> stress;
   PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
     deform(i, in);
@@ -216,4 +153,4 @@ struct HoldVelocity {
   }
 };
 
-}  // namespace piola::jst_sph::inline PIOLA_MACHINE
+}  // namespace piola::jst_sph::inline PIOLA_BACKEND

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loops of the nodal formulation for one machine; compiled once per instruction set (PIOLA_MACHINE).
+// The loops of the nodal formulation for one machine; compiled once per instruction set (PIOLA_BACKEND).
 #include "piola/formulations/nodal/step.hpp"
 
 namespace piola::nodal::inline PIOLA_BACKEND {
@@ -35,6 +35,10 @@ void project(BodyState& body, ProjectionFields const& fields) {
   with_step(body, [&](auto one_step) { one_step.project(fields); });
 }
 
+void subtract_gradients(BodyState& body, FieldRef const& centroid) {
+  with_step(body, [&](auto one_step) { one_step.subtract_gradients(centroid); });
+}
+
 double largest_change(BodyState& body) {
   exec::for_each_block(body.slots, LargestChange{read(body.change), body.partial});
   double largest = 0;
@@ -47,6 +51,6 @@ double largest_change(BodyState& body) {
 /// The entry by which the host finds this instruction set.
 extern Backend const backend;
 Backend const backend{PIOLA_BACKEND_NAME, lane_count, &step,    &accelerate, &observe,
-                      &largest_change,    &keep,      &restore, &project};
+                      &largest_change,    &keep,      &restore, &project,    &subtract_gradients};
 
-}  // namespace piola::nodal::inline PIOLA_MACHINE
+}  // namespace piola::nodal::inline PIOLA_BACKEND

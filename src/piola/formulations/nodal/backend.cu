@@ -48,6 +48,7 @@ void launch_all(Range r, void const* passes, exec::Scratch const& scratch) {
   launch_each<SumForces<D>>(r, passes);
   launch_lattice<D>(r, passes, scratch);
   launch_sweep<ProjectQuadratic<D>>(r, passes, scratch);
+  launch_sweep<SubtractGradients<D>>(r, passes, scratch);
   launch_each<KickAndDrift<D>>(r, passes);
   launch_each<Kick<D>>(r, passes);
   launch_each<CopyMotion<D>>(r, passes);
@@ -69,4 +70,4 @@ void launch(int dimension, Range r, void const* passes, exec::Scratch const& scr
   if (dimension == 3) launch_all<3>(r, passes, scratch);
 }
 
-}  // namespace piola::nodal::inline PIOLA_MACHINE
+}  // namespace piola::nodal::inline PIOLA_BACKEND

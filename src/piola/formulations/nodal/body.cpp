@@ -42,12 +42,8 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
       order_(slot_order(set, body_)),
       images_(make_images(assembly, body)),
       set_(&set),
-      fields_(D_, options.fluctuation_viscosity > 0 || options.shock_viscosity > 0, options.solids) {
-  if (!assembly.initial_deformation_gradient.empty())
-    throw InputError(fmt::format(
-        "body '{}': nodal takes the deformation from the positions (allowed: initial_displacement) - remove "
-        "initial_deformation_gradient",
-        body_.name));
+      fields_(D_, options.fluctuation_viscosity > 0 || options.shock_viscosity > 0, options.solids,
+              !assembly.initial_deformation_gradient.empty()) {
   set_materials(materials_of(assembly, body));
   set_up(assembly, backend);
   if (!images_.empty() && !reference_.held.empty())
@@ -63,6 +59,7 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
   if (!images_.empty()) keep_own_side();
   fill_initial(assembly);
   fill_histories();
+  if (fields_.with_offset) fill_offset(assembly, backend);
   make_boundary(assembly, body);
   backend.step(state_, 0);  // the accelerations of the start
 }
@@ -194,6 +191,7 @@ void NodalBody::allocate() {
   }
   fields_.each([&](Field& f) {
     if (f.size() > 0 || &f == (reference_.lattice ? &fields_.X : &fields_.products)) return;
+    if (!fields_.with_offset && &f == &fields_.offset) return;
     if (!fields_.with_viscosity && (&f == &fields_.viscous || &f == &fields_.viscous_kept)) return;
     if (!fields_.with_solids && (&f == &fields_.history || &f == &fields_.history_kept)) return;
     if (f.components() > 1)
@@ -208,6 +206,7 @@ void NodalBody::allocate() {
   std::tie(s.x, s.v, s.a, s.first, s.second) =
       std::tuple(f.x.ref(), f.v.ref(), f.a.ref(), reference_.lattice ? f.products.ref() : f.X.ref(), f.stress.ref());
   s.mu = f.mu.ref();
+  s.offset = f.offset.ref();
   std::tie(s.F, s.P, s.cell, s.C_measured, s.change, s.kept) =
       std::tuple(f.F.ref(), f.P.ref(), f.cell.ref(), f.C_measured.ref(), f.change.ref(), f.kept.ref());
   s.viscous = f.viscous.ref();
@@ -273,6 +272,25 @@ void NodalBody::fill_initial(Assembly const& assembly) {
       fields_.x.at(p.slot, c) = set_->X[static_cast<std::size_t>(id(p.slot))][static_cast<std::size_t>(c)];
       fields_.v.at(p.slot, c) = 0;
     }
+}
+
+/// F = offset + GRAD x with an offset that stays: F starts from the given values, which count at the particles.
+void NodalBody::fill_offset(Assembly const& assembly, Backend const& backend) {
+  Field centroid("CellCentroid", "m", D_, Role::reference);
+  centroid.allocate_tiled(order_.slots());
+  exec_host::parallel_for(own().last - own().first, [&](Index k) {
+    Index const i = own().first + k;
+    auto const& F = assembly.initial_deformation_gradient[static_cast<std::size_t>(id(i))];
+    for (int c = 0; c < D_; ++c) {
+      centroid.at(i, c) = reference_.centroid[static_cast<std::size_t>(i * D_ + c)];
+      for (int J = 0; J < D_; ++J) fields_.offset.at(i, c * D_ + J) = F[std::size_t{3} * c + J];
+    }
+  });
+  backend.subtract_gradients(state_, centroid.ref());
+  for (MirroredParticle const& p : mirrored_)  // what is odd across a plane vanishes there
+    for (int c = 0; c < D_; ++c)
+      for (int J = 0; J < D_; ++J)
+        if (((p.axes >> c ^ p.axes >> J) & 1) != 0) fields_.offset.at(p.slot, c * D_ + J) = 0;
 }
 
 void NodalBody::make_boundary(Assembly const& assembly, std::size_t body) {

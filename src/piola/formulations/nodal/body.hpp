@@ -104,6 +104,7 @@ class NodalBody {
   void allocate();
   void fill_reference();
   void fill_initial(Assembly const& assembly);
+  void fill_offset(Assembly const& assembly, Backend const& backend);
   void fill_histories();
   void make_boundary(Assembly const& assembly, std::size_t body);
   void agree_on_step(double change);

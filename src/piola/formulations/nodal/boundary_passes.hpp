@@ -19,6 +19,7 @@ struct TurnLoads {
   double const* centroid;  ///< [loaded][D]: of the cell, relative to the particle [m]
   ListSums<D> list;
   ReferenceView g, k;
+  View offset;
 
   PIOLA_FN void operator()(Index n) const {
     LoadedParticle& p = loaded[n];
@@ -31,7 +32,7 @@ struct TurnLoads {
       for (int m = 1; m < values; ++m)
         for (int s = 0; s < second; ++s) H[s] += T[m] * k.template scalar<double>(p.slot, (m - 1) * second + s);
       for (int J = 0; J < D; ++J) {
-        F(c, J) = T[values + J];
+        F(c, J) = T[values + J] + (offset.data == nullptr ? 0 : offset.scalar<double>(p.slot, c * D + J));
         for (int m = 0; m < values; ++m) F(c, J) += T[m] * g.template scalar<double>(p.slot, m * D + J);
         for (int K = 0; K < D; ++K) F(c, J) -= H[Quadratic<D>::at(J, K)] * centroid[n * D + K];
       }
@@ -40,4 +41,4 @@ struct TurnLoads {
   }
 };
 
-}  // namespace piola::nodal::inline PIOLA_MACHINE
+}  // namespace piola::nodal::inline PIOLA_BACKEND

@@ -27,11 +27,11 @@ struct Fields : FieldSet {
   static int points(int D) { return D == 3 ? 4 : 1 << D; }
   static int solid_values(int D) { return HistoryLayout::point(points(D), D); }
 
-  /// `has_solids`: some cell has a solid in rate form.
-  explicit Fields(int D, bool has_viscosity = false, bool has_solids = false)
-      : D_(D), with_viscosity(has_viscosity), with_solids(has_solids) {}
+  /// `has_solids`: some cell has a solid in rate form. `has_offset`: F starts from given values.
+  explicit Fields(int D, bool has_viscosity = false, bool has_solids = false, bool has_offset = false)
+      : D_(D), with_viscosity(has_viscosity), with_solids(has_solids), with_offset(has_offset) {}
   int const D_;
-  bool const with_viscosity, with_solids;
+  bool const with_viscosity, with_solids, with_offset;
 
   ListedField V{*this, "CellVolume", "m3", 1, Role::reference};
   ListedField mass{*this, "Mass", "kg", 1, Role::reference};
@@ -52,6 +52,8 @@ struct Fields : FieldSet {
   ListedField C_measured{*this, "StretchOfLastMeasurement", "1", D_*(D_ + 1) / 2, Role::evolved};
   ListedField change{*this, "ChangeSinceMeasurement", "1", 2, Role::derived};
   ListedField kept{*this, "MotionAtStepStart", "1", 3 * D_ + 1, Role::derived};
+  // Allocated only with an initial deformation gradient:
+  ListedField offset{*this, "GradientOffset", "1", D_* D_, Role::reference};
   // Allocated only with viscosity:
   ListedField viscous{*this, "ViscousHistory", "1", viscous_values(D_), Role::evolved};
   ListedField viscous_kept{*this, "ViscousHistoryAtStepStart", "1", viscous_values(D_), Role::derived};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/options.hpp"
 #include "piola/base/errors.hpp"
-#include "piola/formulations/common/supported_laws.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
 #include <array>
 #include <cmath>
@@ -9,6 +8,12 @@
 
 namespace piola::nodal {
 namespace {
+
+/// Hyperelastic laws and solids in rate form without failure.
+constexpr std::array<std::string_view, 11> laws_without_failure{
+    "linear_elastic",  "neo_hookean",       "mooney_rivlin",       "saint_venant_kirchhoff", "compressible_neo_hookean",
+    "elastic",         "perfectly_plastic", "isotropic_hardening", "johnson_cook",           "zerilli_armstrong",
+    "steinberg_guinan"};
 
 constexpr std::array parameters{
     Parameter{"min_mass_ratio", "1",
@@ -50,7 +55,7 @@ FormulationInfo info() {
       "four points, exact masses; nothing but plastic flow dissipates, on lattices and irregular clouds alike",
       parameters,
       choices,
-      total_lagrangian_laws,
+      laws_without_failure,
       diagnostics};
   info.can_be_coupled = true;
   info.observes_locally = true;

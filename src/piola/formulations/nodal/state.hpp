@@ -80,6 +80,7 @@ struct BodyState {
   // Evolved: position, velocity; acceleration by all forces at x.
   FieldRef x, v, a;
   FieldRef mu;      ///< corrections of the gradients
+  FieldRef offset;  ///< of F over the gradient of positions, from the start; without data: none
   FieldRef first;   ///< neighbour data of the first sweep: X, x, mu; of a lattice x_c mu_J
   FieldRef second;  ///< neighbour data of the second sweep: rows (Y_i, Z_i)
   FieldRef F, P;    ///< gradient at the centroid; mean stress, three-dimensional: for observers
@@ -128,6 +129,9 @@ struct Backend {
   void (*restore)(BodyState& body);           ///< restores them
   /// a = the matrix of the divergence theorem times x; masses are one.
   void (*project)(BodyState& body, ProjectionFields const& fields);
+  /// Subtracts the gradient of positions at the particles from `offset`. `centroid`: of cells, relative to the
+  /// particles [m].
+  void (*subtract_gradients)(BodyState& body, FieldRef const& centroid);
 };
 
 /// The instruction set of that name, or the best one of this processor for "auto"; nullptr if it is unknown or not

@@ -47,6 +47,13 @@ class Step {
     sum_forces();
   }
 
+  void subtract_gradients(FieldRef const& centroid) {
+    prepare_motion();
+    SubtractGradients<D> const pass{read_reference(b_.g), read_reference(b_.k), read(centroid), read(b_.offset),
+                                    write(b_.offset)};
+    fused(b_.slots, exec::erased(pass));
+  }
+
   /// The fields for observers, of the cells at x.
   void observe() { sweep<true>(-1); }
 
@@ -108,7 +115,7 @@ class Step {
   void turn_loads(bool at_end) {
     halo_.refresh(b_.x, b_.first);
     exec::for_each_item(b_.loaded_count, TurnLoads<D>{at_end, b_.loaded, b_.loaded_centroid, of_motion(),
-                                                      read_reference(b_.g), read_reference(b_.k)});
+                                                      read_reference(b_.g), read_reference(b_.k), read(b_.offset)});
   }
 
   void drive(double dt) {
@@ -120,8 +127,8 @@ class Step {
     if (b_.surface != nullptr) b_.kick_surface(*b_.surface, b_, false, dt);
   }
 
-  template <bool Observed>
-  void sweep(double dt) {
+  /// Completes the data that the first sweep reads.
+  void prepare_motion() {
     halo_.refresh(b_.x);
     if (on_lattice()) {
       MultiplyByCorrections<D> const multiply{read(b_.x), read(b_.mu), write(b_.first)};
@@ -129,6 +136,11 @@ class Step {
       exec::for_each_item(b_.told_count, MultiplyOthers<D>{multiply, b_.told});
     }
     halo_.refresh(b_.first);
+  }
+
+  template <bool Observed>
+  void sweep(double dt) {
+    prepare_motion();
     for (Index k = 0; k < b_.material_count; ++k) update_stress<Observed>(b_.materials[k], dt);
   }
 
@@ -149,6 +161,7 @@ class Step {
                                                   read_reference(b_.g),
                                                   read_reference(b_.k),
                                                   read_reference(b_.own),
+                                                  read(b_.offset),
                                                   read(b_.C_measured),
                                                   write(b_.C_measured),
                                                   b_.marks,
@@ -185,4 +198,4 @@ class Step {
   Halo halo_;
 };
 
-}  // namespace piola::nodal::inline PIOLA_MACHINE
+}  // namespace piola::nodal::inline PIOLA_BACKEND

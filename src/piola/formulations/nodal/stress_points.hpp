@@ -111,7 +111,7 @@ struct UpdateStress {
   Law law;
   Constants constants;
   ReferenceView V, L, g, k, own;
-  View C_measured;
+  View offset, C_measured;
   WriteView C_marked;
   bool marks;
   View kept;
@@ -120,7 +120,8 @@ struct UpdateStress {
   FailureSlot* failure;
 
   PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
-    CellPoints<D> const at = gradients(i, in);
+    CellPoints<D> at = gradients(i, in);
+    if (offset.data != nullptr) at.F = at.F + offset.matrix<D, Lanes>(i);
     CellEnergy<Law, points, Observed> energy{law, constants.kappa, constants.kappa_local, {}, {}, {}, {}, {}, {}};
     for (int q = 0; q < points; ++q) energy.F[q] = embed<D>(at.at(q));
     if constexpr (std::is_same_v<Law, SolidCells<D>>)
@@ -240,4 +241,31 @@ struct UpdateStress {
   }
 };
 
-}  // namespace piola::nodal::inline PIOLA_MACHINE
+/// offset_a -= F(X_a), the gradient of positions at the particle, F_a - H_a.c_a with the centroid c_a of the cell.
+template <int D>
+struct SubtractGradients {
+  static constexpr int values = Quadratic<D>::values, second = Quadratic<D>::second, used = Records<D>::used;
+  ReferenceView g, k;
+  View centroid, offset;
+  WriteView offset_out;
+
+  PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
+    LanesOfField const to_F = lanes_of(g, i), to_H = lanes_of(k, i);
+    Vec<D, Lanes> const far = centroid.vector<D, Lanes>(i);
+    Mat<D, Lanes> r = offset.matrix<D, Lanes>(i);
+    for (int c = 0; c < D; ++c) {
+      auto const T = [&](int m) { return load<Lanes>(in.at(i, c * used + m)); };
+      for (int J = 0; J < D; ++J) {
+        r(c, J) = r(c, J) - T(values + J) - T(0) * to_F[J];
+        for (int m = 1; m < values; ++m) {
+          Lanes along = to_F[m * D + J];
+          for (int K = 0; K < D; ++K) along = along - to_H[(m - 1) * second + Quadratic<D>::at(J, K)] * far[K];
+          r(c, J) = r(c, J) - T(m) * along;
+        }
+      }
+    }
+    offset_out.matrix<D>(i, r);
+  }
+};
+
+}  // namespace piola::nodal::inline PIOLA_BACKEND

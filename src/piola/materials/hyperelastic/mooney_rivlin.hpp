@@ -60,4 +60,4 @@ struct MooneyRivlin : VolumetricSplit<MooneyRivlin> {
   static constexpr double three_root_three = 5.196152422706632;
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND
