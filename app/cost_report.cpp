@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cost_report.hpp"
 #include "piola/base/text.hpp"
+#include "piola/simulation/driver_and_workers.hpp"
 #include "streams.hpp"
 #include <fmt/format.h>
 #include <string>
@@ -31,6 +32,18 @@ void say_cost(CasePlan const& plan) {
   print_result("needs, estimated: {} to set up and {}{} to run with {} {}, {} of memory, {} of disk\n",
                duration_text(cost.setup_seconds), duration_text(cost.run_seconds), most, cost.threads,
                cost.threads == 1 ? "thread" : "threads", size_text(cost.memory), size_text(cost.disk));
+}
+
+void say_ranks(CasePlan const& plan, int ranks) {
+  Assembly assembly;
+  assembly.particles = plan.particles;
+  for (BodySpec const& body : plan.spec.bodies) assembly.formulations.push_back(body.formulation);
+  refuse_unsupported_on_ranks(assembly, ranks);
+  std::string const all = count_text(ranks) + (ranks == 1 ? " rank" : " ranks");
+  print_result("on {}: about {} particles and {} of memory each\n", all, count_text(plan.particles.size() / ranks),
+               size_text(memory_of_rank(plan.cost, plan.particles, ranks)));
+  print_result("  a run of 20 steps on {} (run.end = \"{}\") shows the speed: message_seconds in summary.json\n", all,
+               quantity_text(20 * plan.cost.step, "s", 3));
 }
 
 }  // namespace piola::app

@@ -45,7 +45,6 @@ struct FormulationInfo {
   bool surface_supports = false;  ///< whether supports can hold the surface itself, where particles lie inside
   bool on_ranks = false;          ///< whether its bodies are distributed over ranks; else each rank computes all of
                                   ///< them
-  bool has_spatial_halo = false;  ///< whether communication includes a spatial halo, which changes with the positions
   /// Whether observers evaluate local particles on each rank; else the state is gathered on rank 0 first.
   bool observes_locally = false;
   std::span<FormulaInfo const> formulas = {};  ///< optional formulas

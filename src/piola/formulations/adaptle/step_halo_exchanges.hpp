@@ -27,9 +27,6 @@ class StepHaloExchanges {
   void after_half_state(System const& system);
   void after_correction(System const& system);
 
-  /// Communication pattern of a body in its current state, computed in a run on one rank.
-  static CommPattern comm_pattern(System const& system, SpatialLists const& lists, int body);
-
  private:
   /// Exchange between reference neighbours of one body.
   struct ReferenceHalo {

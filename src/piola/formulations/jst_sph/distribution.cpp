@@ -88,19 +88,4 @@ void JstBody::mark_halo() {
       if (marked.emplace(t.field.data, t.first).second) halo_->add(t.field, t.first, t.count, t.far ? 1 : 0);
 }
 
-CommPattern JstBody::comm_pattern() const {
-  CommPattern talk;
-  double const near = options_.kernel->support * spacing() * options_.gradient_support,
-               far = std::max(near, options_.kernel->support * spacing() * options_.laplacian_support);
-  for (auto const& parts : told()) {
-    talk.messages.emplace_back();
-    for (Told const& t : parts) talk.messages.back().push_back({t.far ? far : near, t.count});
-  }
-  int const stages = verlet() ? 1 : 2;
-  bool const rigid_of_stages = !verlet() && state_.constants.without_rigid;
-  // Sums of motion and of forces, with the largest wave speed and the first failure, unless volumes fail later.
-  talk.collectives = (verlet() ? 2 : stages * (rigid_of_stages ? 2 : 1)) + (options_.smoothed_volume() ? 1 : 0);
-  return talk;
-}
-
 }  // namespace piola::jst_sph

@@ -74,8 +74,6 @@ class Solver final : public Formulation {
     rule.late_from = near_limit * rule.settled;
     rule.limit =
         "the stability limit of the fastest mode, measured (run.cfl, without a default here, would replace it)";
-    rule.more_stages = StabilityMonitor::stages_per_step;
-    rule.setup_stages = monitors_.front()->setup_stages();
     return rule;
   }
 
@@ -145,11 +143,6 @@ class Solver final : public Formulation {
   void load(StateReader& reader) override;
 
   int stages_per_step() const override { return bodies_.front()->options().integrator == Integrator::verlet ? 1 : 2; }
-  std::optional<CommPattern> comm_pattern(std::size_t body) const override {
-    CommPattern talk = bodies_[body]->comm_pattern();
-    if (monitors_[body]) talk.collectives += StabilityMonitor::collectives_per_step;
-    return talk;
-  }
   std::size_t memory_bytes() const override {
     std::size_t total = set_.bytes();
     for (auto const& body : bodies_) total += body->bytes();

@@ -267,13 +267,6 @@ bool StabilityMonitor::is_undeformed() const {
   return moved == 0;
 }
 
-double StabilityMonitor::setup_stages() const {
-  constexpr double around = 1;  // the state without displacement
-  bool const hourglass = body_.options().hourglass();
-  if (hourglass && is_large_lattice()) return repeats_of_many * rounds_of_repeat + around;
-  return 2 * (first_rounds + around);
-}
-
 /// The limit of the undeformed body. The eigenvalue depends on the step in it, which a few measurements find.
 void StabilityMonitor::measure_at_rest() {
   auto const& k = body_.state().constants;

@@ -21,13 +21,6 @@ double largest_step(double eigenvalue);
 /// undeformed body. The state is left unchanged.
 class StabilityMonitor {
  public:
-  /// Cost of later measurements in right-hand sides per step.
-  static constexpr double stages_per_step = 4.0 / 50;
-  /// Collectives of later measurements per step: the mode, motions of right-hand sides, three maxima, two sums.
-  static constexpr double collectives_per_step = 9.0 / 50;
-  /// Cost of the first measurements in right-hand sides, with overhead.
-  double setup_stages() const;
-
   /// Measures both from a random start.
   StabilityMonitor(JstBody& body, Backend const& backend);
 

@@ -39,14 +39,4 @@ std::vector<Index> NodalBody::slots_read() const {
   return read;
 }
 
-CommPattern NodalBody::comm_pattern() const {
-  CommPattern talk;
-  double const reach = usual_reach * *std::max_element(body_.spacing.begin(), body_.spacing.begin() + D_);
-  int const used = with_dimension(D_, [](auto dimension) { return Records<dimension>::used; });
-  talk.messages = {{{reach, D_}}, {{reach, D_ * used}}};
-  talk.collectives = 1;  // the first failure with the largest change of a strain
-  talk.order = [](ParticleSet const& set, Body const& body, int) { return slot_order(set, body); };
-  return talk;
-}
-
 }  // namespace piola::nodal
