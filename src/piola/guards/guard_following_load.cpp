@@ -15,7 +15,7 @@ namespace {
 /// as damping needs to reduce a velocity to 1 / e. One mode of vibration grows for a quarter of its period, at most 1.6
 /// windows, because slower modes are overdamped.
 constexpr double growing_windows = 3;
-constexpr double growth = 2;
+constexpr double least_growth = 2;
 /// Fraction of the energy of the run below which changes are rounding.
 constexpr double least_share = 1e-9;
 constexpr double same = 1e-9;  ///< relative change of a steady load
@@ -51,7 +51,7 @@ class FollowingLoadGuard : public Guard {
     }
     if (!(kinetic <= m_.most)) m_.most = kinetic;
     if (!(time - m_.begun >= 1 / spec_.run.damping)) return;
-    bool const grows = m_.before > least_share * look.scale.value() && m_.most > growth * m_.before;
+    bool const grows = m_.before > least_share * look.scale.value() && m_.most > least_growth * m_.before;
     if (!grows) {
       m_.rises = 0;
       m_.first = m_.most;

@@ -69,7 +69,7 @@ bool check_bodies(CaseSpec const& spec, Problems& problems) {
   return sound;
 }
 
-void check_found(TieSpec const& tie, contact::Ties::Found const& found, Problems& problems) {
+void check_found(TieSpec const& tie, contact::Ties::TieReport const& found, Problems& problems) {
   if (found.points[0] > 0 && (tie.rigid || found.points[1] > 0)) return;
   for (std::size_t const k : {0, 1})
     if (!tie.rigid && found.points[1 - k] > 0) {
@@ -88,7 +88,7 @@ void check_found(TieSpec const& tie, contact::Ties::Found const& found, Problems
                    " (allowed: half a spacing) - let the bodies touch" + (tie.where ? ", or change where" : ""));
 }
 
-void check_stiffness(TieSpec const& tie, contact::Ties::Found const& found, Problems& problems) {
+void check_stiffness(TieSpec const& tie, contact::Ties::TieReport const& found, Problems& problems) {
   if (!tie.fails()) return;
   double const last = 2 * tie.toughness / tie.strength, least = stiff_enough * tie.strength / last;
   if (found.stiffness >= least) return;
@@ -108,7 +108,7 @@ double spacing_of(ParticleSet const& particles, std::size_t body) {
 
 }  // namespace
 
-std::vector<contact::Ties::Found> found_by_ties(CaseSpec const& spec, ParticleSet const& particles) {
+std::vector<contact::Ties::TieReport> found_by_ties(CaseSpec const& spec, ParticleSet const& particles) {
   Problems none;
   if (spec.ties.empty() || !check_bodies(spec, none)) return {};
   std::vector<contact::Surface> surfaces(spec.bodies.size());
@@ -150,7 +150,7 @@ void check_ties(CaseSpec const& spec, ParticleSet const& particles, Problems& pr
 namespace {
 
 /// Faces that part at an angle, or that another tie should hold.
-void warn_of_what_is_left(TieSpec const& tie, contact::Ties::Found const& of, Problems& found) {
+void warn_of_what_is_left(TieSpec const& tie, contact::Ties::TieReport const& of, Problems& found) {
   if (!(of.left_area > of.area)) return;
   found.add(
       place_of(tie.places, "between"),

@@ -2,6 +2,7 @@
 #include "piola/pictures/picture_observer.hpp"
 #include "piola/drawing/rigid_picture.hpp"
 #include "piola/output/atomic_file.hpp"
+#include "piola/output/field_cache.hpp"
 #include "piola/pictures/case_scene.hpp"
 #include "piola/pictures/panel_pictures.hpp"
 #include "piola/pictures/picture_overrides.hpp"

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/drawing/picture.hpp"
 #include "piola/observers/observer.hpp"
+#include "piola/observers/output_schedule.hpp"
 #include <chrono>
 #include <map>
 

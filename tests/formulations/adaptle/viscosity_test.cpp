@@ -17,9 +17,9 @@ TEST(AdaptleViscosity, OfOnePairIsAsEquationsSixAndSevenSay) {
   EXPECT_NEAR(pressure, (5328 * 13.730874852883484 + 2 * 188.53692423619834) / 2785, 1e-11);
   // mu = 1 * -2.02 / 1.01 = -2 with h = 1, r = 1
   EXPECT_NEAR(viscous_pair(0.2, 0.4, 1.0, -2.02, 1.0, 1.16 + 1.16, 2.0).pressure, 0.2 * 1.16 * 2 + 0.4 * 4, 1e-14);
-  auto const parting = viscous_pair(1.0, 2.0, h, 1e-3, 1e-8, 2 * 5328.0, 2 * 2785.0);
-  EXPECT_EQ(parting.mu, 0);
-  EXPECT_EQ(parting.pressure, 0);
+  auto const separating = viscous_pair(1.0, 2.0, h, 1e-3, 1e-8, 2 * 5328.0, 2 * 2785.0);
+  EXPECT_EQ(separating.mu, 0);
+  EXPECT_EQ(separating.pressure, 0);
 }
 
 TEST(AdaptleViscosity, SwitchIsOneInCompressionAndSmallElsewhere) {

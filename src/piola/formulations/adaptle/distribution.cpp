@@ -55,7 +55,7 @@ void Particles::rebalance() {
   if (cuts == now || !balance_.pays(longest)) return;
   std::vector<Partition> const before = now;
   take(cuts);
-  hand_over(before, cuts);
+  migrate(before, cuts);
   balance_.record_repartition();
 }
 
@@ -79,7 +79,7 @@ Resultants Particles::actions() const {
 
 /// Migrates particles from the old partition to the new one: sends the fields of a checkpoint, except phi and alive,
 /// which all ranks hold, from the old owner to the new one.
-void Particles::hand_over(std::vector<Partition> const& from, std::vector<Partition> const& to) {
+void Particles::migrate(std::vector<Partition> const& from, std::vector<Partition> const& to) {
   std::vector<Field*> fields;
   each_saved(fields_, [&](Field& field) {
     if (&field != &fields_.phi && &field != &fields_.active) fields.push_back(&field);

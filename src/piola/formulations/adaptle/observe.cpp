@@ -49,7 +49,7 @@ void observe_each(Particles const& particles, F const& f) {
   System const& s = particles.system();
   Fields const& of = particles.fields();
   LazyZeroArray<int> const spatial = particles.spatial().neighbours_by_slot(s);
-  auto const see = [&](Index i, double pressure) {
+  auto const put = [&](Index i, double pressure) {
     ParticleOutput p;
     p.id = static_cast<double>(particles.order().id(i));
     p.body = s.body_of[i];
@@ -68,7 +68,7 @@ void observe_each(Particles const& particles, F const& f) {
     p.specific_energy = of.energy.at(i) / of.mass.at(i);
     f(p);
   };
-  for (int b = 0; b < s.bodies; ++b) each_particle(s, b, see);
+  for (int b = 0; b < s.bodies; ++b) each_particle(s, b, put);
 }
 
 /// Sums that are reduced over ranks, and columns of this formulation.

@@ -157,7 +157,7 @@ class Particles {
   /// Repartitions the particles by their measured work. All values stay bit-identical.
   void rebalance();
   void take(std::vector<Partition> cuts);
-  void hand_over(std::vector<Partition> const& from, std::vector<Partition> const& to);
+  void migrate(std::vector<Partition> const& from, std::vector<Partition> const& to);
   double work_of(Index slot) const;
   std::vector<ImpulseSum> impulses(double time, double dt) const;
   void lose_surface(Index slot);
@@ -181,7 +181,7 @@ class Particles {
   LazyZeroArray<std::int8_t> conversion_requests_;
   LazyZeroArray<double> position_;
   std::vector<std::uint8_t> eulerian_;
-  MaterialLists material_;
+  ReferenceLists material_;
   SpatialLists spatial_;
   Memory material_records_;
   std::vector<KernelContactPair> contact_pairs_;

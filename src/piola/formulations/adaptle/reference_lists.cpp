@@ -28,7 +28,7 @@ bool invert_moments(double const* A, double* K) {
 
 }  // namespace
 
-void MaterialLists::build(ParticleSet const& set, ParticleOrder const& order, std::vector<BodyConstants> const& bodies,
+void ReferenceLists::build(ParticleSet const& set, ParticleOrder const& order, std::vector<BodyConstants> const& bodies,
                           std::vector<Range> const& own, Fields& fields, Settings const& settings, int lanes) {
   *this = {};
   particles_ = static_cast<Index>(set.size());
@@ -63,7 +63,7 @@ void MaterialLists::build(ParticleSet const& set, ParticleOrder const& order, st
   for (LatticeStencils& rows : rows_) row_views_.push_back(rows.view());
 }
 
-void MaterialLists::find_edge() {
+void ReferenceLists::find_edge() {
   if (!comm::is_parallel()) return;
   for (Range const& own : own_)
     for (Index i = own.first; i < own.last; ++i) {
@@ -91,7 +91,7 @@ void each_around(ParticleSet const& set, ParticleOrder const& order, Range body,
   }
 }
 
-void MaterialLists::list(ParticleSet const& set, ParticleOrder const& order, BodyInput const& body, int lanes) {
+void ReferenceLists::list(ParticleSet const& set, ParticleOrder const& order, BodyInput const& body, int lanes) {
   auto const& [geometry, constants, own] = body;
   begin_[at(own.first)] = static_cast<Offset>(neighbour_.size());
   if (own.first == own.last) return;
@@ -132,7 +132,7 @@ void MaterialLists::list(ParticleSet const& set, ParticleOrder const& order, Bod
   }
 }
 
-void MaterialLists::add_pair(int dimension, double h, Index j, double square) {
+void ReferenceLists::add_pair(int dimension, double h, Index j, double square) {
   double s = 0, W = 0;
   if (j < particles_) kernel_of(dimension, h, square, s, W);
   neighbour_.push_back(j);
@@ -143,7 +143,7 @@ void MaterialLists::add_pair(int dimension, double h, Index j, double square) {
 
 /// K from the same rounded s as the sums, so that gradients of linear fields stay exact to double precision; the
 /// identity where there is no correction.
-void MaterialLists::invert(Fields& fields, int dimension, bool corrected) {
+void ReferenceLists::invert(Fields& fields, int dimension, bool corrected) {
   for_each_local([&](Index i) {
     double G[3]{}, A[9]{}, K[9]{1, 0, 0, 0, 1, 0, 0, 0, 1};
     for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
@@ -168,7 +168,7 @@ void MaterialLists::invert(Fields& fields, int dimension, bool corrected) {
 
 /// Recomputes the sums of V0 s r and V0 W, without deleted neighbours.
 template <class F>
-void MaterialLists::sum_gradients(F const& active, Fields& fields) {
+void ReferenceLists::sum_gradients(F const& active, Fields& fields) {
   for_each_local([&](Index i) {
     double G[3]{}, W = 0;
     for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
@@ -183,7 +183,7 @@ void MaterialLists::sum_gradients(F const& active, Fields& fields) {
   });
 }
 
-void MaterialLists::correct(Fields& fields, std::vector<BodyConstants> const& bodies, int dimension) {
+void ReferenceLists::correct(Fields& fields, std::vector<BodyConstants> const& bodies, int dimension) {
   for (std::size_t b = 0; b < bodies.size(); ++b)
     for (Index i = own_[b].first; i < own_[b].last; ++i) {
       double none = 0, W0 = 0, G[3]{}, xW[3]{}, moments[9]{};
@@ -213,7 +213,7 @@ void MaterialLists::correct(Fields& fields, std::vector<BodyConstants> const& bo
     }
 }
 
-void MaterialLists::choose(Fields& fields, bool as_published) {
+void ReferenceLists::choose(Fields& fields, bool as_published) {
   bool deleted = false;
   for (Index i = 0; i < particles_; ++i) deleted = deleted || !(fields.active.at(i) > 0);
   if (deleted || deleted_) sum_gradients([&](Index j) { return fields.active.at(j) > 0; }, fields);
@@ -236,7 +236,7 @@ void MaterialLists::choose(Fields& fields, bool as_published) {
 
 /// Marks particles with a reference neighbour that is not purely total-Lagrangian. The loop runs over the (few)
 /// converted particles and marks their neighbours; particles with ghost neighbours (`edge_`) are checked separately.
-void MaterialLists::mark_mixed(Fields const& fields) {
+void ReferenceLists::mark_mixed(Fields const& fields) {
   auto const other = [&](Index i) { return fields.phi.at(i) > 0; };
   for (Range const& own : own_)
     for (Index i = own.first; i < own.last; ++i) {
@@ -251,7 +251,7 @@ void MaterialLists::mark_mixed(Fields const& fields) {
     });
 }
 
-void MaterialLists::put_into(MaterialTable& table) const {
+void ReferenceLists::put_into(MaterialTable& table) const {
   table.begin = begin_.data();
   table.neighbour = neighbour_.data();
   table.gradient = gradient_.data();
@@ -261,7 +261,7 @@ void MaterialLists::put_into(MaterialTable& table) const {
   table.rows_of = row_views_.data();
 }
 
-std::size_t MaterialLists::bytes() const {
+std::size_t ReferenceLists::bytes() const {
   std::size_t rows = 0;
   for (LatticeStencils const& of_body : rows_) rows += of_body.bytes();
   return rows + part_.size() + sizeof(Offset) * begin_.size() + sizeof(Index) * neighbour_.size() +

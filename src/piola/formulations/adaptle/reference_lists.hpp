@@ -10,7 +10,7 @@ namespace piola::adaptle {
 
 /// Reference neighbours of the local particles, constant between repartitions, and participation in material sums,
 /// updated at each conversion.
-class MaterialLists {
+class ReferenceLists {
  public:
   /// Builds lists within 2h of each body, in order of ids, with the data for the sums of `settings`; sets positions and
   /// volumes of ghosts. Particles with a singular correction keep plain gradients. own: local slots of each body.

@@ -52,7 +52,7 @@ FieldRef of_body(FieldRef field, BodyConstants const& body) {
 
 }  // namespace
 
-StepHaloExchanges::StepHaloExchanges(System const& s, MaterialLists const& lists, std::vector<Partition> cuts,
+StepHaloExchanges::StepHaloExchanges(System const& s, ReferenceLists const& lists, std::vector<Partition> cuts,
                                      ParticleOrder const& order)
     : near_(cuts, order), cuts_(std::move(cuts)) {
   for (int b = 0; b < s.bodies && lists.built(); ++b) to_neighbours_.push_back(reference_halo(s, lists, b));
@@ -60,7 +60,7 @@ StepHaloExchanges::StepHaloExchanges(System const& s, MaterialLists const& lists
 
 /// Displacement, velocity, volume and viscosity before the first sweep, stress data before the second. If particles
 /// beside Eulerian ones remove damping and springs of their neighbours, also F and its rate.
-StepHaloExchanges::ReferenceHalo StepHaloExchanges::reference_halo(System const& s, MaterialLists const& lists,
+StepHaloExchanges::ReferenceHalo StepHaloExchanges::reference_halo(System const& s, ReferenceLists const& lists,
                                                                    int body) const {
   BodyConstants const& b = s.body[body];
   std::vector<Index> read;

@@ -54,7 +54,7 @@ constexpr std::array table{
     OutputField{"compressive_pressure", "CompressivePressure", "Pa", 1, not_stored},
     OutputField{"principal_stress", "PrincipalStress", "Pa", 3, not_stored},
     OutputField{"principal_strain", "PrincipalStrain", "1", 3, not_stored},
-    OutputField{"parting", "Parting", "1", 1, [](P const& p, double* out) { *out = p.parting; }},
+    OutputField{"parting", "Parting", "1", 1, [](P const& p, double* out) { *out = p.strain_drift; }},
     OutputField{"contact_pressure", "ContactPressure", "Pa", 1,
                 [](P const& p, double* out) { *out = p.contact_pressure; }},
     OutputField{"contact_gap", "ContactGap", "m", 1, [](P const& p, double* out) { *out = p.contact_gap; }},

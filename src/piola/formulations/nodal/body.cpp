@@ -282,12 +282,12 @@ void NodalBody::fill_initial(Assembly const& assembly) {
 void NodalBody::make_boundary(Assembly const& assembly, std::size_t body) {
   auto& r = reference_;
   // Masses of all particles on all ranks for contact, or if every rank solves for held surface places.
-  if (shared() && (assembly.pushed || !r.held.empty())) DistributedSlots{slots(), particles()}.complete(r.mass, 1);
+  if (shared() && (assembly.coupled || !r.held.empty())) DistributedSlots{slots(), particles()}.complete(r.mass, 1);
   std::optional<Range> own;
   if (shared()) own = state_.slots;
   boundary_.emplace(assembly, body, Boundary::BodyInput{order_, r.mass, r.parts, r.centroid, r.held, own});
   boundary_->attach(state_);
-  if (!assembly.pushed) LazyZeroArray<double>().swap(r.mass);
+  if (!assembly.coupled) LazyZeroArray<double>().swap(r.mass);
   LazyZeroArray<double>().swap(r.centroid);
   r.parts.clear();
 }

@@ -56,7 +56,7 @@ class TaylorBody {
   void damp(double factor);
   /// Adds to the velocity of a particle [m/s]; call pushed() after the last one.
   void add_velocities(Index i, std::array<double, 3> const& change);
-  void pushed() { power_ = boundary_power(); }
+  void velocities_changed() { power_ = boundary_power(); }
   double kinetic_energy() const;                         ///< [J]
   double damping_loss() const { return damping_loss_; }  ///< [J]
   double stable_time_step() const;                       ///< cfl * spacing / c in the current configuration [s]
