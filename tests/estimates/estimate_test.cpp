@@ -164,7 +164,9 @@ TEST(Estimate, PartsTellWhatBodiesTakeBesideOthers) {
 TEST(Estimate, RanksDivideWhatIsDistributed) {
   ParticleSet cube;
   cube.bodies.push_back({.name = "cube", .first = 0, .last = 1'000'000});
-  Estimate cost{.memory = 1e9, .distributed = {8e8}};
+  Estimate cost;
+  cost.memory = 1e9;
+  cost.distributed = {8e8};
   EXPECT_EQ(memory_of_rank(cost, cube, 1), 1e9);
   double const replicated = 1e9 - 8e8, ghosts = 3 * 2 * 50 * 50, own = 125e3;
   EXPECT_NEAR(memory_of_rank(cost, cube, 8), replicated + 8e8 * (own + ghosts) / 1e6, 40e6);

@@ -207,7 +207,8 @@ Estimate estimate_from_parts(CaseSpec const& spec, ParticleSet const& particles,
   constexpr std::array part_size{4000, 100, 24};
   Estimate e;
   e.threads = threads;
-  e.memory = program_bytes + static_cast<double>(particles.bytes());
+  std::size_t const initial_velocities = particles.X.size() * sizeof(particles.X[0]);  // parts have none
+  e.memory = program_bytes + static_cast<double>(particles.bytes() + initial_velocities);
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     int const size = part_size[static_cast<std::size_t>(particles.dimension - 1)];
     // The first steps of a formulation load its code, whose memory and time must not be scaled.

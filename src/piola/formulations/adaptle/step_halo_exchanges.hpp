@@ -4,7 +4,6 @@
 #include "piola/formulations/adaptle/reference_lists.hpp"
 #include "piola/formulations/adaptle/spatial_halo_exchange.hpp"
 #include "piola/formulations/adaptle/spatial_lists.hpp"
-#include "piola/formulations/formulation.hpp"
 #include <vector>
 
 namespace piola::adaptle {

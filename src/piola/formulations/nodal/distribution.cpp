@@ -4,7 +4,6 @@
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/nodal/body.hpp"
 #include "piola/formulations/nodal/halo_fields.hpp"
-#include "piola/formulations/nodal/quadratic.hpp"
 #include <algorithm>
 
 namespace piola::nodal {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What others do to a body between its steps.
 #include "piola/formulations/taylor_sph/body.hpp"
-#include <algorithm>
 
 namespace piola::taylor_sph {
 
