@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cost_report.hpp"
 #include "piola/base/text.hpp"
-#include "piola/simulation/driver_and_workers.hpp"
 #include "streams.hpp"
 #include <fmt/format.h>
 #include <string>
@@ -35,10 +34,6 @@ void say_cost(CasePlan const& plan) {
 }
 
 void say_ranks(CasePlan const& plan, int ranks) {
-  Assembly assembly;
-  assembly.particles = plan.particles;
-  for (BodySpec const& body : plan.spec.bodies) assembly.formulations.push_back(body.formulation);
-  refuse_unsupported_on_ranks(assembly, ranks);
   std::string const all = count_text(ranks) + (ranks == 1 ? " rank" : " ranks");
   print_result("on {}: about {} particles and {} of memory each\n", all, count_text(plan.particles.size() / ranks),
                size_text(memory_of_rank(plan.cost, plan.particles, ranks)));

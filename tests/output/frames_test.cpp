@@ -7,6 +7,7 @@
 #include "support/fake_formulation.hpp"
 #include "support/places.hpp"
 #include "support/temporary_folder.hpp"
+#include <algorithm>
 #include <csignal>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -119,6 +120,35 @@ TEST(Frames, GiveTheCompressivePressureOfThePressureTheyHold) {
   hdf5::Reader const file(folder / "frames/000000.hdf");
   EXPECT_EQ(file.text("/VTKHDF/PointData/Pressure", "sign"), "tension positive");
   EXPECT_FALSE(file.has_attribute("/VTKHDF/PointData/VonMisesStress", "sign"));
+}
+
+/// Springs with a field that had another name in the previous release.
+class OldSprings : public Springs {
+ public:
+  using Springs::Springs;
+  std::vector<FieldInfo> fields() const override {
+    auto all = Springs::fields();
+    all.push_back({"LeastJacobian", "1", 1});
+    return all;
+  }
+};
+
+TEST(Frames, OfThePreviousReleaseHaveFieldsOfPresentNames) {
+  TemporaryFolder const folder;
+  FrameWriter writer(folder.path(), {}, true);
+  ParticleSet const set = testing::make_plate(3);
+  OldSprings const springs(set);
+  FieldCache cache(springs, set);
+  writer.write(0, cache);
+  Frame const frame = read_frame(folder / "frames/000000.hdf", "CellJacobianMin");
+  EXPECT_EQ(frame.info.name, "CellJacobianMin");
+  EXPECT_EQ(std::count(frame.field_names.begin(), frame.field_names.end(), "CellJacobianMin"), 1);
+  EXPECT_EQ(std::count(frame.field_names.begin(), frame.field_names.end(), "LeastJacobian"), 0);
+  FrameReader const reader(folder / "frames/000000.hdf");
+  EXPECT_TRUE(reader.knows("CellJacobianMin"));
+  EXPECT_EQ(reader.fields(), frame.field_names);
+  EXPECT_EQ(reader.info("CellJacobianMin").components, 1);
+  EXPECT_EQ(reader.values("CellJacobianMin").size(), frame.values.size());
 }
 
 /// In a child, because the limit cannot be lifted again. Exit status 0: as it should be.

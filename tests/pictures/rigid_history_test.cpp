@@ -23,7 +23,7 @@ class RigidHistories : public ::testing::Test {
   void SetUp() override {
     path = std::filesystem::path(::testing::TempDir()) /
            (std::string("rigid_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv");
-    std::ofstream(path) << "time,stone.x,stone.y,stone.z,stone.turn_x,stone.turn_y,stone.turn_z\n"
+    std::ofstream(path) << "time,stone.x,stone.y,stone.z,stone.rotation_x,stone.rotation_y,stone.rotation_z\n"
                         << "0,1,2,3,0,0,0\n"
                         << "2,3,2,3,0,0,0.4\n";
   }

@@ -5,6 +5,7 @@
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/derived_fields.hpp"
 #include "piola/formulations/field_signs.hpp"
+#include "piola/formulations/renamed_outputs.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/output/hdf5.hpp"
 #include <algorithm>
@@ -170,7 +171,7 @@ namespace {
 
 /// One field of a frame, its shape checked against what the formulations write.
 void read_field(hdf5::Reader const& file, std::string const& field, Frame& frame) {
-  std::string const data = "/VTKHDF/PointData/" + field;
+  std::string const data = path_of(stored_output_name(field, file.names("/VTKHDF/PointData")));
   std::uint64_t const columns = file.columns(data);
   if (columns != 1 && columns != 3 && columns != 6 && columns != 9)
     file.fail(data, fmt::format("has {} components (1, 3, 6 or 9 are known)", columns));
@@ -209,6 +210,7 @@ Frame read_frame(std::filesystem::path const& path, std::string const& field) {
   frame.points.resize(points.size() / 3);
   for (std::size_t i = 0; i < points.size(); ++i) frame.points[i / 3][i % 3] = static_cast<double>(points[i]);
   frame.field_names = file.names("/VTKHDF/PointData");
+  for (std::string& name : frame.field_names) name = current_output_name(name);
   std::string const stored = stored_field(field, frame.field_names);
   if (stored.empty()) {
     throw InputError(fmt::format("{}: the frame has no field '{}' (it has {}) - {}", path.string(), field,

@@ -31,7 +31,7 @@ RigidHistory::RigidHistory(std::filesystem::path const& history, std::vector<Rig
     if (rigid.turns()) shapes.emplace_back().name = rigid.name;
   if (shapes.empty()) return;
   HistoryTable const table = read_history(history);
-  std::erase_if(shapes, [&](RigidState const& shape) { return !table.find(shape.name + ".turn_z"); });
+  std::erase_if(shapes, [&](RigidState const& shape) { return !table.find(shape.name + ".rotation_z"); });
   auto const number = [](std::vector<double> const& row, std::optional<std::size_t> column) {
     double const value = column ? row[*column] : 0;
     return std::isfinite(value) ? value : 0;
@@ -39,7 +39,7 @@ RigidHistory::RigidHistory(std::filesystem::path const& history, std::vector<Rig
   std::vector<std::optional<std::size_t>> columns;  // centre and turn of each shape, component by component
   for (RigidState const& shape : shapes)
     for (char const letter : {'x', 'y', 'z'})
-      for (char const* const what : {".", ".turn_"}) columns.push_back(table.find(shape.name + what + letter));
+      for (char const* const what : {".", ".rotation_"}) columns.push_back(table.find(shape.name + what + letter));
   auto const time = table.find("time");
   for (auto const& row : table.rows) {
     auto column = columns.begin();

@@ -52,9 +52,8 @@ FieldRef of_body(FieldRef field, BodyConstants const& body) {
 
 }  // namespace
 
-StepHaloExchanges::StepHaloExchanges(System const& s, ReferenceLists const& lists, std::vector<Partition> cuts,
-                                     ParticleOrder const& order)
-    : near_(cuts, order), cuts_(std::move(cuts)) {
+StepHaloExchanges::StepHaloExchanges(System const& s, ReferenceLists const& lists, std::vector<Partition> cuts)
+    : near_(cuts), cuts_(std::move(cuts)) {
   for (int b = 0; b < s.bodies && lists.built(); ++b) to_neighbours_.push_back(reference_halo(s, lists, b));
 }
 

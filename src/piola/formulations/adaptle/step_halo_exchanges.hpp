@@ -15,8 +15,7 @@ namespace piola::adaptle {
 class StepHaloExchanges {
  public:
   /// system: of a distributed run, with its tables. cuts: partition of each body.
-  StepHaloExchanges(System const& system, ReferenceLists const& lists, std::vector<Partition> cuts,
-                    ParticleOrder const& order);
+  StepHaloExchanges(System const& system, ReferenceLists const& lists, std::vector<Partition> cuts);
 
   /// To be called between the parts of a step (Machine), in this order. before_lists() also broadcasts a failure of any
   /// rank and returns the input of the step's lists.

@@ -294,10 +294,10 @@ bool is_slender(SetUp const& from) {
 }
 
 /// The lattice of a body for loops, if possible. Lists are needed by follower pressures, which use gradients particle
-/// by particle, by images, which are not on the lattice, and by shuffled bodies.
+/// by particle, and by images, which are not on the lattice.
 std::optional<LatticeShape> shape_for_loops(SetUp const& from) {
   bool const follows = std::any_of(from.loads.begin(), from.loads.end(), [](Load const& load) { return load.follows; });
-  if (follows || from.images != nullptr || shuffle_forces_lists() || is_slender(from)) return std::nullopt;
+  if (follows || from.images != nullptr || is_slender(from)) return std::nullopt;
   return lattice_shape(from.set, from.body, from.order);
 }
 

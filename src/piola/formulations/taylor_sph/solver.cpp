@@ -122,7 +122,7 @@ class Solver final : public Formulation {
     d.more = {{"list_updates", more[1]},
               {"triangulations", more[2]},
               {"centred_energy", d.total_energy() - more[3]},
-              {"parting", more[4]}};
+              {"strain_drift", more[4]}};
     return d;
   }
 
