@@ -286,7 +286,7 @@ FormulationInfo info() {
   info.mirrors = false;
   info.contact = true;
   info.can_be_coupled = true;
-  info.observes_locally = info.has_spatial_halo = true;
+  info.observes_locally = true;
   info.formulas = formulas;
   return info;
 }

@@ -85,8 +85,6 @@ Particles::Particles(Assembly const& assembly, Options const& options, Backend c
   set_descriptions();
   std::vector<Partition> equal;
   for (BodyConstants const& b : body_) equal.emplace_back(Range{b.first, b.last});
-  for (Partition& cut : equal)
-    if (assembly.for_estimate_only) cut = Partition(cut.whole(), {0, 0});  // all is of a rank that there is not
   take(std::move(equal));
   set_particles(assembly);
   set_boundaries();

@@ -112,8 +112,6 @@ class Particles {
   }
   /// Mass of a particle of any rank for contact [kg]; 0 for deleted particles, which do not take part in contact.
   double contact_mass(std::int64_t id) const;
-  /// For estimates.
-  CommPattern comm_pattern(int body) const { return StepHaloExchanges::comm_pattern(system_, spatial_, body); }
   ParticlePartition const& local_particles() const { return owned_; }
   /// Lattice lines for observers on several ranks; null on one rank.
   LatticeLineHalo* lines(int body) const {

@@ -114,9 +114,6 @@ class Solver final : public Formulation, public SurfaceLoss {
   std::optional<RepartitionStatistics> repartition_statistics() const override {
     return particles_.repartition_statistics();
   }
-  std::optional<CommPattern> comm_pattern(std::size_t body) const override {
-    return particles_.comm_pattern(static_cast<int>(body));
-  }
 
  private:
   /// The rows of a field of the local particles, whose ids are given.

@@ -4,7 +4,6 @@
 #include "piola/formulations/adaptle/reference_lists.hpp"
 #include "piola/formulations/adaptle/spatial_halo_exchange.hpp"
 #include "piola/formulations/adaptle/spatial_lists.hpp"
-#include "piola/formulations/formulation.hpp"
 #include <vector>
 
 namespace piola::adaptle {
@@ -25,9 +24,6 @@ class StepHaloExchanges {
   void after_lists(System const& system);
   void after_half_state(System const& system);
   void after_correction(System const& system);
-
-  /// Communication pattern of a body in its current state, computed in a run on one rank.
-  static CommPattern comm_pattern(System const& system, SpatialLists const& lists, int body);
 
  private:
   /// Exchange between reference neighbours of one body.

@@ -41,7 +41,6 @@ class NodalBody {
   Reference const& reference() const { return reference_; }
   bool shared() const { return halo_ != nullptr; }
   /// Communication pattern of the body while strains change slowly.
-  CommPattern comm_pattern() const;
   /// Slots of the local particles: all on one rank.
   Range own() const;
   /// Lattice lines for observers if the body is distributed; else nullptr.

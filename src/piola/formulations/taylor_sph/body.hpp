@@ -100,7 +100,6 @@ class TaylorBody {
   Index worst_corner() const;  ///< a particle of the cell with the smallest volume
   std::size_t bytes() const;
   /// Communication pattern of the body; empty if not modelled: the exchange of estimates.
-  CommPattern comm_pattern() const;
   Index local_of(Index slot) const { return local_of_[at(slot)]; }
   Index virtual_particles() const { return state_.virtual_count; }
 

@@ -136,7 +136,6 @@ class Solver final : public Formulation {
   void load(StateReader& reader) override;
 
   int stages_per_step() const override { return 2; }
-  std::optional<CommPattern> comm_pattern(std::size_t body) const override { return bodies_[body]->comm_pattern(); }
   std::vector<std::pair<std::string, double>> timings() const override {
     SetupSeconds sum;
     for (auto const& body : bodies_) {
