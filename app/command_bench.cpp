@@ -165,7 +165,7 @@ void add_bench(CLI::App& program, Action& action) {
   command->add_option("--repeats", options->repeats, "Time steps per measurement, the fastest counts (default 8)")
       ->check(CLI::Range(1, 1000));
   command->add_option("--threads", options->threads, "Numbers of threads (default 1 2)")->check(CLI::Range(1, 1024));
-  command->add_option("--machine", options->backend, "Instruction set beside the scalar path (default auto)");
+  add_instruction_set(*command, options->backend, "Instruction set beside the scalar path (default auto)");
   command->callback([options, &action] { action = [options] { return bench(*options); }; });
 }
 

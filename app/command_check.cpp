@@ -273,7 +273,7 @@ void print_contact(CaseSpec const& spec, int dimension) {
   print_colours(spec);
   bool const own = has_kernel_contact(spec);
   if (!own) return;
-  constexpr std::array<std::string_view, 5> laws{"none", "kernel", "linear", "printed", "surface"};
+  constexpr std::array<std::string_view, 5> laws{"none", "kernel", "linear", "published", "surface"};
   ContactRule const rule = spec.contact ? ContactRule(*spec.contact) : ContactRule();
   std::string text;
   if (rule.scale != 1) text += ", scale " + number_text(rule.scale);
@@ -378,9 +378,9 @@ void add_check(CLI::App& program, Action& action) {
   options->from.add_to(*command);
   command
       ->add_option("--ranks", options->ranks,
-                   "Say as well what each of so many ranks (processes, see clusters) would have to do")
+                   "Also estimate the work of each rank (process) of a run on this number of ranks")
       ->check(CLI::Range(1, 100'000));
-  command->add_flag("--json", options->json, "Say it as one JSON object, for scripts");
+  command->add_flag("--json", options->json, "Print one JSON object, for scripts");
   command->callback([options, &action] { action = [options] { return check(*options); }; });
 }
 

@@ -6,7 +6,6 @@
 #include "piola/estimates/estimate.hpp"
 #include "piola/estimates/scaling.hpp"
 #include "piola/simulation/build.hpp"
-#include "piola/simulation/driver_and_workers.hpp"
 #include "set_up_watch.hpp"
 #include "streams.hpp"
 #include <algorithm>
@@ -42,14 +41,12 @@ constexpr int most = 1024;
 /// Throws InputError for cases that do not run on ranks.
 CountedCase counted(CaseSpec const& spec, ParticleSet const& particles, Estimate cost, int ranks) {
   SetUpWatch const watch(fmt::format("counting what {} particles tell each other", count_text(particles.size())), {});
-  Assembly const assembly = assemble(spec, particles);
-  refuse_unsupported_on_ranks(assembly, ranks);
   if (!runs_on_ranks(cost))
     throw InputError(fmt::format(
         "--ranks {}: what this case would send is not known before it runs (bodies that ranks do not share were not "
         "counted) - run some steps with mpirun, and look at \"ranks\" in summary.json",
         ranks));
-  if (particles.size() >= large_case) count_talk_between(assembly, cost);
+  if (particles.size() >= large_case) count_talk_between(assemble(spec, particles), cost);
   return {scale(particles, cost, ranks), max_efficient_ranks(particles, cost, most)};
 }
 
@@ -71,7 +68,7 @@ void print_rank_estimate(CaseSpec const& spec, ParticleSet const& particles, Est
           s, [](RankLoad const& r) { return r.bytes; }, size),
       between(
           s, [](RankLoad const& r) { return r.memory; }, size));
-  if (s.to_all > 0) print_result("  all ranks are told {} in a step\n", size(s.to_all));
+  if (s.replicated_values > 0) print_result("  all ranks are told {} in a step\n", size(s.replicated_values));
   StepTimes const& t = s.times;
   auto const time = [](double seconds) { return quantity_text(seconds, "s", 3); };
   print_result("  a step, estimated: {} (sweeps {}, messages {}, {} collectives {}, rows of history.csv {})\n",

@@ -124,7 +124,7 @@ std::string end_report(CaseOutcome const& outcome, std::filesystem::path const& 
 void add_wall_time(CLI::App& command, std::string& text) {
   command
       .add_option("--wall-time", text,
-                  "Stop with a checkpoint before so much time has passed, e.g. \"2 h\" (exit code 4)")
+                  "Stop with a checkpoint before this wall time has passed, e.g. \"2 h\" (exit code 4)")
       ->check([](std::string const& given) { return given.empty() ? "a time such as \"2 h\" is needed" : ""; }, "TIME");
 }
 

@@ -52,7 +52,7 @@ TEST(NodalBench, MeasuresWhatItIsAskedForAndPrintsIt) {
   report.set_up.push_back({"cube, lattice", 216, 0.001, 0.004, 0.003, 0.0005, 0.0005, 12, 30, 0.002});
   auto const json = nlohmann::json::parse(to_json(report));
   EXPECT_EQ(json["rows"][0]["stages_per_second"], 6e6);
-  EXPECT_EQ(json["set_up"][0]["closure_iterations"], 12);
+  EXPECT_EQ(json["set_up"][0]["integration_iterations"], 12);
   std::string const text = to_text(report);
   EXPECT_NE(text.find("6.00          3.00"), std::string::npos) << text;
   EXPECT_NE(text.find("9.0       2.000     2.0"), std::string::npos) << text;

@@ -79,9 +79,9 @@ def meeting(work):
             "boxes": ending(of_taylor(', virtual_particles = "lattice_cells"'), "4 ms"),
             "fixed triangles": ending(of_taylor(', configuration = "fixed"'), "4 ms"),
             "estimates, triangles": ending(
-                of_taylor(', exchange = "estimates", virtual_particles = "delaunay"', 0.15), "4 ms"),
+                of_taylor(', exchange = "kernel_sums", virtual_particles = "delaunay"', 0.15), "4 ms"),
             "estimates, boxes": ending(
-                of_taylor(', exchange = "estimates", virtual_particles = "lattice_cells"'), "4 ms"),
+                of_taylor(', exchange = "kernel_sums", virtual_particles = "lattice_cells"'), "4 ms"),
             "apart": APART + '[output.history]\nevery = "0.4 us"\n',
             "adaptle": ending(lagrangian, "0.4 us"),
             "many of adaptle": ending(many, "20 ns"), "many, flowing": halves,

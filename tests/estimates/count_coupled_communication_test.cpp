@@ -40,7 +40,7 @@ void expect_same_talk(std::string const& text) {
     SCOPED_TRACE(spec.bodies[b].name);
     ASSERT_TRUE(counted.talk[b] && whole.talk[b]);
     EXPECT_DOUBLE_EQ(counted.talk[b]->collectives, whole.talk[b]->collectives);
-    EXPECT_DOUBLE_EQ(counted.talk[b]->to_all, whole.talk[b]->to_all);
+    EXPECT_DOUBLE_EQ(counted.talk[b]->replicated_values, whole.talk[b]->replicated_values);
     EXPECT_DOUBLE_EQ(counted.talk[b]->stages, whole.talk[b]->stages);
     ASSERT_EQ(counted.talk[b]->near.has_value(), whole.talk[b]->near.has_value());
     if (whole.talk[b]->near) {

@@ -146,7 +146,7 @@ TEST(Estimate, RowsTakeBytesOfWhatRanksShare) {
       "title = \"Plate\"\n[run]\nend = 1\n[[body]]\nname = \"plate\"\nshape = { box = { min = [0, 0], max = [1, 1] }, "
       "particles = [20, 20] }\nmaterial = { law = \"linear_elastic\", density = 1000, youngs_modulus = 1e7, "
       "poissons_ratio = 0.3 }\nformulation = { name = \"NAME\" }\ninitial_velocity = [\"Y\", 0]\n"
-      "[[probe]]\nname = \"shards\"\nkind = \"fragment\"\nbody = \"plate\"\nquantities = [\"piece_count\"]\n";
+      "[[probe]]\nname = \"shards\"\nkind = \"fragment\"\nbody = \"plate\"\nquantities = [\"large_fragment_count\"]\n";
   auto const of = [&](std::string_view name) {
     std::string own = text;
     own.replace(own.find("NAME"), 4, name);

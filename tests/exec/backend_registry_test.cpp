@@ -45,7 +45,7 @@ TEST(BackendRegistry, FindsByNameAndTakesTheFirstForAuto) {
 TEST(BackendRegistry, SaysWhichMachinesAreUsable) {
   char const* const names[] = {"v4", "scalar", nullptr};
   EXPECT_EQ(not_usable("v9", names),
-            "machine 'v9' is unknown or not usable on this processor (usable: auto, v4, scalar)");
+            "instruction set 'v9' is unknown or not usable on this processor (usable: auto, v4, scalar)");
 }
 
 TEST(BackendRegistry, SaysThatAProgramWasBuiltForAnotherProcessor) {

@@ -7,6 +7,7 @@
 #include "support/fake_formulation.hpp"
 #include "support/places.hpp"
 #include "support/temporary_folder.hpp"
+#include <algorithm>
 #include <csignal>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -117,6 +118,34 @@ TEST(Frames, GiveTheCompressivePressureOfThePressureTheyHold) {
   hdf5::Reader const file(folder / "frames/000000.hdf");
   EXPECT_EQ(file.text("/VTKHDF/PointData/Pressure", "sign"), "tension positive");
   EXPECT_FALSE(file.has_attribute("/VTKHDF/PointData/VonMisesStress", "sign"));
+}
+
+/// Springs with a field that had another name in the previous release.
+class OldSprings : public Springs {
+ public:
+  using Springs::Springs;
+  std::vector<FieldInfo> fields() const override {
+    auto all = Springs::fields();
+    all.push_back({"LeastJacobian", "1", 1});
+    return all;
+  }
+};
+
+TEST(Frames, OfThePreviousReleaseHaveFieldsOfPresentNames) {
+  TemporaryFolder const folder;
+  FrameWriter writer(folder.path(), {}, true);
+  ParticleSet const set = testing::make_plate(3);
+  OldSprings const springs(set);
+  FieldCache cache(springs, set);
+  writer.write(0, cache);
+  FrameReader const frame(folder / "frames/000000.hdf");
+  EXPECT_TRUE(frame.knows("CellJacobianMin"));
+  auto const fields = frame.fields();
+  EXPECT_EQ(std::count(fields.begin(), fields.end(), "CellJacobianMin"), 1);
+  EXPECT_EQ(std::count(fields.begin(), fields.end(), "LeastJacobian"), 0);
+  EXPECT_EQ(frame.info("CellJacobianMin").name, "CellJacobianMin");
+  EXPECT_EQ(frame.info("CellJacobianMin").components, 1);
+  EXPECT_EQ(frame.values("CellJacobianMin").size(), 9U);
 }
 
 /// In a child, because the limit cannot be lifted again. Exit status 0: as it should be.

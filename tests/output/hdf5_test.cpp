@@ -22,7 +22,9 @@ using hdf5::Handle;
 
 void seal_file(std::filesystem::path const& path) {
   std::string const text = testing::text_of(path);
-  std::ofstream(path, std::ios::binary | std::ios::app) << checksum_trailer_of(std::as_bytes(std::span(text)));
+  CheckSum sum;
+  sum.add(text);
+  std::ofstream(path, std::ios::binary | std::ios::app) << checksum_trailer_of(sum, text.size());
 }
 
 /// A file made with the library itself; `fill` writes what it likes.
@@ -187,7 +189,7 @@ TEST(Hdf5Reader, OpensNothingThatIsNotSealed) {
   make_file(folder / "a.h5", [](hid_t) {});
   EXPECT_EQ(complaint_of([&] { hdf5::Reader{folder / "a.h5"}; }), "");
   std::filesystem::resize_file(folder / "a.h5",
-                               std::filesystem::file_size(folder / "a.h5") - checksum_trailer_of({}).size());
+                               std::filesystem::file_size(folder / "a.h5") - checksum_trailer_of({}, 0).size());
   EXPECT_COMPLAINT(hdf5::Reader{folder / "a.h5"}, "does not end with its check sum");
   EXPECT_COMPLAINT(hdf5::Reader{folder / "absent.h5"}, "cannot be read");
   EXPECT_COMPLAINT(hdf5::Reader{folder.path()}, "cannot be read");
@@ -205,7 +207,7 @@ std::string complaint_of_frame(std::filesystem::path const& folder, std::functio
   writer.write(0, cache);
   auto const path = folder / "frames/000000.hdf";
   std::string const text = testing::text_of(path);
-  std::ofstream(path, std::ios::binary) << text.substr(0, text.size() - checksum_trailer_of({}).size());
+  std::ofstream(path, std::ios::binary) << text.substr(0, text.size() - checksum_trailer_of({}, 0).size());
   {
     Handle const file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, "the frame");
     change(file.id());

@@ -62,9 +62,9 @@ void measure_rates(NodalBenchReport& report, NodalBenchOptions const& options, N
   }
 }
 
-nodal::Reference reference_of(ParticleSet const& set, nodal::Backend const& backend, double closure_tolerance) {
+nodal::Reference reference_of(ParticleSet const& set, nodal::Backend const& backend, double integration_tolerance) {
   auto const order = nodal::slot_order(set, set.bodies[0]);
-  return nodal::make_reference({set, set.bodies[0], order, {}, {}, {1100}, 0.3, backend, nullptr, closure_tolerance});
+  return nodal::make_reference({set, set.bodies[0], order, {}, {}, {1100}, 0.3, backend, nullptr, integration_tolerance});
 }
 
 void measure_set_up(NodalBenchReport& report, NodalBenchOptions const& options, NodalBenchmarkCase const& subject,
@@ -80,13 +80,13 @@ void measure_set_up(NodalBenchReport& report, NodalBenchOptions const& options, 
     auto const least = [&](double& to, double seconds) { to = k == 0 ? seconds : std::min(to, seconds); };
     least(row.cells, reference.costs.cells);
     least(row.fits, reference.costs.fits);
-    least(row.closure, reference.costs.closure);
+    least(row.integration_correction, reference.costs.integration_correction);
     least(row.masses, reference.costs.masses);
     least(row.tables, reference.costs.tables);
-    row.iterations = reference.closure_iterations;
+    row.iterations = reference.integration_iterations;
   }
   constexpr long few = 10000;  // larger ones would take minutes
-  if (row.particles <= few) row.tight = reference_of(set, backend, 1e-6).closure_iterations;
+  if (row.particles <= few) row.tight = reference_of(set, backend, 1e-6).integration_iterations;
   row.right_side = fastest_step(*make_formulation(assembly), options.repeats).cpu;
   report.set_up.push_back(row);
 }
@@ -126,7 +126,7 @@ std::string to_json(NodalBenchReport const& report) {
                            {"particles", row.particles},
                            {"cells_seconds", row.cells},
                            {"fits_seconds", row.fits},
-                           {"closure_seconds", row.closure},
+                           {"closure_seconds", row.integration_correction},
                            {"closure_iterations", row.iterations},
                            {"closure_iterations_tight", row.tight},
                            {"masses_seconds", row.masses},
@@ -155,12 +155,12 @@ std::string set_up_text(NodalBenchReport const& report) {
   std::string text = fmt::format(
       "\nset-up, one thread, ms\n"
       "{:<24} {:>10} {:>8} {:>8} {:>8} {:>10} {:>7} {:>8} {:>8} {:>9} {:>11} {:>7}\n",
-      "", "particles", "cells", "fits", "closure", "iterations", "to 1e-6", "masses", "tables", "in all", "right side",
+      "", "particles", "cells", "fits", "integration_correction", "iterations", "to 1e-6", "masses", "tables", "in all", "right side",
       "fits");
   for (auto const& row : report.set_up)
     text += fmt::format(
         "{:<24} {:>10} {:>8.1f} {:>8.1f} {:>8.1f} {:>10} {:>7} {:>8.1f} {:>8.1f} {:>9.1f} {:>11.3f} {:>7.1f}\n",
-        row.name, row.particles, 1e3 * row.cells, 1e3 * row.fits, 1e3 * row.closure, row.iterations,
+        row.name, row.particles, 1e3 * row.cells, 1e3 * row.fits, 1e3 * row.integration_correction, row.iterations,
         row.tight > 0 ? fmt::to_string(row.tight) : "-", 1e3 * row.masses, 1e3 * row.tables, 1e3 * row.total(),
         1e3 * row.right_side, row.fits / row.right_side);
   return text +

@@ -20,11 +20,11 @@ struct NodalBenchOptions {
 struct NodalSetUpRow {
   std::string name;
   long particles = 0;
-  double cells = 0, fits = 0, closure = 0, masses = 0, tables = 0;
+  double cells = 0, fits = 0, integration_correction = 0, masses = 0, tables = 0;
   int iterations = 0;     ///< of the solve for the divergence theorem
   int tight = 0;          ///< iterations to 1e-6 of the first residual; 0: not measured
   double right_side = 0;  ///< one right-hand side of the body
-  double total() const { return cells + fits + closure + masses + tables; }
+  double total() const { return cells + fits + integration_correction + masses + tables; }
 };
 
 struct NodalBenchReport {

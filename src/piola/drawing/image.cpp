@@ -135,7 +135,7 @@ Image read_png(std::filesystem::path const& path) {
     bool const opaque = (header.format & PNG_FORMAT_FLAG_ALPHA) == 0;
     header.format = opaque ? PNG_FORMAT_RGB : PNG_FORMAT_RGBA;
     image = Image(static_cast<int>(header.width), static_cast<int>(header.height), {0, 0, 0});
-    std::vector<std::uint8_t> hash_mix(opaque ? 0 : image.rgb.size() / 3 * 4);
+    std::vector<std::uint8_t> mixed(opaque ? 0 : image.rgb.size() / 3 * 4);
     good = png_image_finish_read(&header, nullptr, opaque ? image.rgb.data() : mixed.data(), 0, nullptr) != 0;
     if (!opaque) take_apart(mixed, image);
   }

@@ -19,7 +19,7 @@ bool is_longer(ReferenceMesh const& mesh, Configuration const& now, Index a, Ind
 bool has_parted(ReferenceMesh const& mesh, Configuration const& now, Index a, Index b) {
   auto const i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
   if (!now.loose.empty() && (now.loose[i] != 0 || now.loose[j] != 0)) return true;
-  if (!is_longer(mesh, now, a, b, parting.stretch)) return false;
+  if (!is_longer(mesh, now, a, b, tearing.stretch)) return false;
   std::array<Index, 2> const edge{std::min(a, b), std::max(a, b)};
   return !std::binary_search(now.drawn_out.begin(), now.drawn_out.end(), edge);
 }
@@ -84,7 +84,7 @@ std::vector<std::uint8_t> whole_cells(ReferenceMesh const& mesh, Configuration c
   }
   exec_host::parallel_for(mesh.cells.count(), [&](Index cell) {
     whole[static_cast<std::size_t>(cell)] =
-        has_loose_corner(mesh, now, cell) || is_beyond(parting, mesh, now, cell) ? 0 : 1;
+        has_loose_corner(mesh, now, cell) || is_beyond(tearing, mesh, now, cell) ? 0 : 1;
   });
   return whole;
 }
@@ -92,7 +92,7 @@ std::vector<std::uint8_t> whole_cells(ReferenceMesh const& mesh, Configuration c
 /// See Configuration::drawn_out.
 std::vector<std::array<Index, 2>> drawn_out_edges(ReferenceMesh const& mesh, Configuration const& now,
                                                   std::vector<std::uint8_t> const& whole) {
-  auto const is_long = [&](Index a, Index b) { return is_longer(mesh, now, a, b, parting.stretch); };
+  auto const is_long = [&](Index a, Index b) { return is_longer(mesh, now, a, b, tearing.stretch); };
   std::vector<std::uint8_t> has_one(whole.size(), 0);
   exec_host::parallel_for(mesh.cells.count(), [&](Index cell) {
     auto const k = static_cast<std::size_t>(cell);
@@ -310,7 +310,7 @@ Mat<3> fitted_gradient(ReferenceMesh const& mesh, Configuration const& now, std:
     Point3 const d = minus(now.x[other], now.x[particle]), D = minus(mesh.X[other], mesh.X[particle]);
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) {
-        hash_mix(a, b) += d[static_cast<std::size_t>(a)] * D[static_cast<std::size_t>(b)];
+        mixed(a, b) += d[static_cast<std::size_t>(a)] * D[static_cast<std::size_t>(b)];
         moment(a, b) += D[static_cast<std::size_t>(a)] * D[static_cast<std::size_t>(b)];
       }
     size += dot(D, D);
@@ -318,7 +318,7 @@ Mat<3> fitted_gradient(ReferenceMesh const& mesh, Configuration const& now, std:
   if (!(size > 0)) return identity<3>();
   constexpr double little = 2e-4;
   for (int a = 0; a < 3; ++a) {
-    hash_mix(a, a) += little * size;
+    mixed(a, a) += little * size;
     moment(a, a) += little * size;
   }
   return mixed * inverse(moment);

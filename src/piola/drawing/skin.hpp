@@ -17,7 +17,7 @@ namespace piola {
 struct TearingCriterion {
   double stretch, growth, sheared_off;
 };
-inline constexpr TearingCriterion parting{2.5, 2, 8};
+inline constexpr TearingCriterion tearing{2.5, 2, 8};
 /// A torn cell is whole again below all of these bounds. Between both sets of bounds it keeps its state, so that skins
 /// do not flicker from picture to picture.
 inline constexpr TearingCriterion joining{2, 1.5, 6};
@@ -28,18 +28,18 @@ struct Configuration {
   std::span<Point3 const> x;
   std::span<std::uint8_t const> loose;
   std::optional<std::span<Index const>> torn = {};  ///< torn cells in ascending order; nothing: determined by the
-                                                    ///< bounds `parting`
-  /// Edges of cells that are whole although these are longer than parting.stretch, each with its lower end first,
+                                                    ///< bounds `tearing`
+  /// Edges of cells that are whole although these are longer than tearing.stretch, each with its lower end first,
   /// rising.
   std::span<std::array<Index, 2> const> drawn_out = {};
 };
 
-/// Torn cells in ascending order: above the bounds `parting`, with a loose or NaN particle, or torn before (`before`,
+/// Torn cells in ascending order: above the bounds `tearing`, with a loose or NaN particle, or torn before (`before`,
 /// ascending) and not below `joining`.
 std::vector<Index> torn_cells(ReferenceMesh const& mesh, Configuration const& now, std::span<Index const> before);
 
 /// F of a particle: the linear map that best fits the positions of its mesh neighbours (least squares over edges that
-/// are not longer than parting.stretch, or drawn out). A small weight of the identity determines directions without
+/// are not longer than tearing.stretch, or drawn out). A small weight of the identity determines directions without
 /// neighbours. Exact to 1e-3 of F - I for a linear motion.
 Mat<3> fitted_gradient(ReferenceMesh const& mesh, Configuration const& now, std::size_t particle);
 

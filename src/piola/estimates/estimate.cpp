@@ -113,7 +113,7 @@ bool is_regular(CaseSpec const& spec, BodySpec const& body) {
   if (name == "adaptle") return !says("description", "eulerian");
   if (name == "taylor_sph")
     return says("virtual_particles", "lattice_cells") ||
-           (body.shape.kind == ShapeSpec::Kind::box && says("exchange", "estimates") &&
+           (body.shape.kind == ShapeSpec::Kind::box && says("exchange", "kernel_sums") &&
             !says("virtual_particles", "delaunay") && !says("configuration", "fixed"));
   return !mirrored && body.shape.jitter == 0 && !body.shape.random &&
          body.shape.arrangement == ShapeSpec::Arrangement::lattice;

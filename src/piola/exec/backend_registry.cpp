@@ -47,7 +47,7 @@ std::string not_usable(std::string_view backend, char const* const* usable) {
            "here with tools/quickstart, or for every processor of the family with cmake --preset release";
   std::string known = "auto";
   for (auto name = usable; *name != nullptr; ++name) known += fmt::format(", {}", *name);
-  return fmt::format("machine '{}' is unknown or not usable on this processor (usable: {})", backend, known);
+  return fmt::format("instruction set '{}' is unknown or not usable on this processor (usable: {})", backend, known);
 }
 
 }  // namespace piola::exec_host

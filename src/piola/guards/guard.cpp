@@ -138,13 +138,13 @@ double crossing_time(CaseSpec const& spec, ParticleSet const& particles, std::ve
     auto const& spacing = particles.bodies[b].spacing;
     double const finest = *std::min_element(spacing.begin(), spacing.begin() + particles.dimension);
     double const motion = speed.empty() ? 0 : speed[b];
-    auto const see = [&](MaterialParameters const& material) {
+    auto const consider = [&](MaterialParameters const& material) {
       with_any_law(material, [&](auto const& law) {
         if (double const time = finest / (law.p_wave_speed() + motion); time > 0) least = std::min(least, time);
       });
     };
-    observe(spec.bodies[b].material);
-    for (PartSpec const& part : spec.bodies[b].parts) observe(part.material);
+    consider(spec.bodies[b].material);
+    for (PartSpec const& part : spec.bodies[b].parts) consider(part.material);
   }
   return least;
 }

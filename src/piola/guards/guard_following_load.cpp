@@ -15,14 +15,14 @@ namespace {
 /// as damping needs to reduce a velocity to 1 / e. One mode of vibration grows for a quarter of its period, at most 1.6
 /// windows, because slower modes are overdamped.
 constexpr double growing_windows = 3;
-constexpr double growth = 2;
+constexpr double least_growth = 2;
 /// Fraction of the energy of the run below which changes are rounding.
 constexpr double least_share = 1e-9;
 constexpr double same = 1e-9;  ///< relative change of a steady load
 
 /// Whether a pressure follows its face and varies along it: such a load is not conservative.
 bool feeds_motion(LoadSpec const& load, ParticleSet const& particles, double time) {
-  if (!load.follows || load.kind != LoadSpec::Kind::pressure) return false;
+  if (!load.follower || load.kind != LoadSpec::Kind::pressure) return false;
   auto const ids = loaded_particles(particles, *body_named(particles, load.body), load);
   return varies_between(ids, load.value[0], particles, time);
 }
@@ -37,7 +37,7 @@ class FollowingLoadGuard : public Guard {
  public:
   FollowingLoadGuard(CaseSpec const& spec, ParticleSet const& particles) : spec_(spec), particles_(particles) {
     bool const follows =
-        std::any_of(spec.loads.begin(), spec.loads.end(), [](LoadSpec const& load) { return load.follows; });
+        std::any_of(spec.loads.begin(), spec.loads.end(), [](LoadSpec const& load) { return load.follower; });
     bool const known = std::all_of(spec.loads.begin(), spec.loads.end(), has_formulas);
     judges_ = spec.run.damping > 0 && follows && known && !has_driven_support(spec);
   }
@@ -51,7 +51,7 @@ class FollowingLoadGuard : public Guard {
     }
     if (!(kinetic <= m_.most)) m_.most = kinetic;
     if (!(time - m_.begun >= 1 / spec_.run.damping)) return;
-    bool const grows = m_.before > least_share * look.scale.value() && m_.most > growth * m_.before;
+    bool const grows = m_.before > least_share * look.scale.value() && m_.most > least_growth * m_.before;
     if (!grows) {
       m_.rises = 0;
       m_.first = m_.most;

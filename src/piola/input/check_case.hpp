@@ -18,7 +18,7 @@ ParticleSet make_particles(CaseSpec const& spec, Problems& problems);
 void check_regions(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
 
 /// Pairs found by each tie of a case at the start, in the order of the ties; empty if a tie is impossible.
-std::vector<contact::Ties::Found> found_by_ties(CaseSpec const& spec, ParticleSet const& particles);
+std::vector<contact::Ties::TieReport> found_by_ties(CaseSpec const& spec, ParticleSet const& particles);
 
 /// Ids of a body's particles that a condition selects; all of them without a condition.
 std::vector<std::int64_t> select_particles(ParticleSet const& particles, Body const& body, Expression const* where);

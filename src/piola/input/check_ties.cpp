@@ -35,9 +35,10 @@ std::string why_not(CaseSpec const& spec, std::size_t body) {
   if (can_have_surface(spec, body)) return "";
   if (!info || !info->can_be_coupled) return "the formulation " + b.formulation.name + " cannot be pushed";
   if (info->name == "taylor_sph" || b.shape.kind == ShapeSpec::Kind::points) return why_without_surface(spec, body);
-  bool const mirrored = std::any_of(spec.mirrors.begin(), spec.mirrors.end(),
-                                    [&](MirrorSpec const& mirror) { return mirror.body == b.name && mirror.skew; });
-  return mirrored ? "it has skew mirror planes" : "its particles may turn Eulerian";
+  bool const mirrored = std::any_of(spec.mirrors.begin(), spec.mirrors.end(), [&](MirrorSpec const& mirror) {
+    return mirror.body == b.name && mirror.antisymmetric;
+  });
+  return mirrored ? "it has antisymmetric mirror planes" : "its particles may turn Eulerian";
 }
 
 /// adaptle among itself keeps its bodies from shapes that do not turn by the kernel, held points, too.
@@ -59,17 +60,17 @@ bool check_bodies(CaseSpec const& spec, Problems& problems) {
       std::string const why = why_not(spec, b);
       if (why.empty()) continue;
       sound = false;
-      problems.add(
-          place_of(tie.places, "between"),
-          "the tie " + in_quotes(tie.name) + " cannot hold body " + in_quotes(spec.bodies[b].name) + ": " + why +
-              " (allowed: bodies of nodal, jst_sph, taylor_sph and total-Lagrangian adaptle without skew mirrors) - "
-              "choose another body or formulation");
+      problems.add(place_of(tie.places, "between"), "the tie " + in_quotes(tie.name) + " cannot hold body " +
+                                                        in_quotes(spec.bodies[b].name) + ": " + why +
+                                                        " (allowed: bodies of nodal, jst_sph, taylor_sph and "
+                                                        "total-Lagrangian adaptle without antisymmetric mirrors) - "
+                                                        "choose another body or formulation");
     }
   }
   return sound;
 }
 
-void check_found(TieSpec const& tie, contact::Ties::Found const& found, Problems& problems) {
+void check_found(TieSpec const& tie, contact::Ties::TieReport const& found, Problems& problems) {
   if (found.points[0] > 0 && (tie.rigid || found.points[1] > 0)) return;
   for (std::size_t const k : {0, 1})
     if (!tie.rigid && found.points[1 - k] > 0) {
@@ -88,7 +89,7 @@ void check_found(TieSpec const& tie, contact::Ties::Found const& found, Problems
                    " (allowed: half a spacing) - let the bodies touch" + (tie.where ? ", or change where" : ""));
 }
 
-void check_stiffness(TieSpec const& tie, contact::Ties::Found const& found, Problems& problems) {
+void check_stiffness(TieSpec const& tie, contact::Ties::TieReport const& found, Problems& problems) {
   if (!tie.fails()) return;
   double const last = 2 * tie.toughness / tie.strength, least = stiff_enough * tie.strength / last;
   if (found.stiffness >= least) return;
@@ -108,7 +109,7 @@ double spacing_of(ParticleSet const& particles, std::size_t body) {
 
 }  // namespace
 
-std::vector<contact::Ties::Found> found_by_ties(CaseSpec const& spec, ParticleSet const& particles) {
+std::vector<contact::Ties::TieReport> found_by_ties(CaseSpec const& spec, ParticleSet const& particles) {
   Problems none;
   if (spec.ties.empty() || !check_bodies(spec, none)) return {};
   std::vector<contact::Surface> surfaces(spec.bodies.size());
@@ -150,13 +151,13 @@ void check_ties(CaseSpec const& spec, ParticleSet const& particles, Problems& pr
 namespace {
 
 /// Faces that part at an angle, or that another tie should hold.
-void warn_of_what_is_left(TieSpec const& tie, contact::Ties::Found const& of, Problems& found) {
+void warn_of_what_is_left(TieSpec const& tie, contact::Ties::TieReport const& of, Problems& found) {
   if (!(of.left_area > of.area)) return;
   found.add(
       place_of(tie.places, "between"),
       fmt::format("the tie {} holds {} points, but {} more that face the other body are farther from it than half "
-                  "a spacing, as a gap or an overlap, and stay free - let the bodies touch, or say by where what "
-                  "is meant",
+                  "a spacing, as a gap or an overlap, and stay free - let the bodies touch, or select the "
+                  "points by where",
                   in_quotes(tie.name), of.points[0] + of.points[1], of.left));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/base/expression.hpp"
 #include "piola/observers/observer.hpp"
+#include "piola/output/field_cache.hpp"
 #include <array>
 #include <optional>
 #include <string>

@@ -56,7 +56,7 @@ class BodyBoundary {
   /// Sets the velocities of t = 0 of held particles, after the first begin_step.
   void start(FieldRef const& v) const;
   /// Sets the local slots of a distributed body. Work and impulses are then sums over ranks, and end_step (see
-  /// DeferredGlobalSum) and hand_over are collective.
+  /// DeferredGlobalSum) and add_resultants_to are collective.
   void share(Range own) { own_ = own; }
   /// As share(), but also discards supports and loads of other ranks. Call before the first begin_step(). Not allowed
   /// with multipliers, which need the supports of all ranks.

@@ -18,11 +18,11 @@ bool has_ended(double until, double time);
 template <class... Lists>
 double next_end_time(double time, Lists const&... lists) {
   double next = std::numeric_limits<double>::infinity();
-  auto const see = [&](auto const& list) {
+  auto const consider = [&](auto const& list) {
     for (auto const& item : list)
       if (!has_ended(item.until, time) && item.until < next) next = item.until;
   };
-  (observe(lists), ...);
+  (consider(lists), ...);
   return next;
 }
 

@@ -35,7 +35,7 @@ class SurfaceConstraint {
                     std::span<double const> mass, std::vector<Point> const& X);
 
   bool empty() const { return places_.empty(); }
-  /// Sets the local slots of a distributed body. All further members except hand_over() are then collective; every rank
+  /// Sets the local slots of a distributed body. All further members except add_resultants_to() are then collective; every rank
   /// solves for all places.
   void share(Range own) { own_ = own; }
   /// Whether the particle contributes to the motion of a place.
@@ -58,7 +58,7 @@ class SurfaceConstraint {
   /// sum m a^2 of the part of accelerations that the reactions of places remove, without those of held particles.
   double square_of_held(FieldRef const& rate) const;
   /// Adds the impulses of supports since the last call.
-  void hand_over(Resultants& actions) const { driven_.hand_over(actions); }
+  void add_resultants_to(Resultants& actions) const { driven_.add_resultants_to(actions); }
   void reset_impulses() { driven_.reset_impulses(); }
   std::size_t bytes() const;
 

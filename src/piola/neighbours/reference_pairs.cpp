@@ -347,7 +347,6 @@ void ReferencePairs::correct(ParticleSet const& set, Body const& body, SlotOrder
         body.name, id, X[0], X[1], X[2], refusal.found, refusal.operation, dimension_, dimension_ == 1 ? "" : "s"));
   }
   for (double const m : moment) c.largest_moment = std::max(c.largest_moment, m);
-  for (Index a = own_.first; a < own_.last; ++a) pairs_ += c.neighbours_of(a);
 }
 
 bool ReferencePairs::correct(Index a, std::size_t at, double& moment, TooFewNeighbours& refusal) {

@@ -17,7 +17,7 @@ class FieldCache {
  public:
   /// all: values of all particles. owned: values of local particles only (Formulation::owned); `id` below is then the
   /// index among these, and values() is collective: all ranks request the same fields in the same order.
-  enum class Of { all, owned };
+  enum class Of { all, local };
   FieldCache(Formulation const& formulation, ParticleSet const& particles, Of of = Of::all);
   bool knows(std::string_view field) const;
   /// Throws std::invalid_argument for a field that is not known.
@@ -27,7 +27,7 @@ class FieldCache {
   std::vector<FieldInfo> const& fields() const { return fields_; }
   Formulation const& formulation() const { return formulation_; }
   ParticleSet const& particles() const { return particles_; }
-  /// For Of::owned, the ids of the local particles; nothing if this rank owns all.
+  /// For Of::local, the ids of the local particles; nothing if this rank owns all.
   std::optional<std::vector<std::int64_t>> const& local_particles() const { return owned_; }
 
  private:

@@ -3,18 +3,24 @@
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
 #include "piola/formulations/derived_fields.hpp"
+#include "piola/formulations/renamed_outputs.hpp"
 #include "piola/output/frames.hpp"
 #include "piola/output/hdf5.hpp"
+#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace piola {
 namespace {
 
-std::string data_of(std::string const& field) { return "/VTKHDF/PointData/" + field; }
+constexpr char const* all_data = "/VTKHDF/PointData";
+
+std::string data_of(hdf5::Reader const& file, std::string const& field) {
+  return fmt::format("{}/{}", all_data, stored_output_name(field, file.names(all_data)));
+}
 
 std::uint64_t components_in(hdf5::Reader const& file, std::string const& field) {
-  std::uint64_t const columns = file.columns(data_of(field));
+  std::uint64_t const columns = file.columns(data_of(file, field));
   if (columns != 1 && columns != 3 && columns != 6 && columns != 9)
     file.fail(field, fmt::format("has {} components (1, 3, 6 or 9 are known)", columns));
   return columns;
@@ -58,7 +64,12 @@ std::vector<double> FrameReader::rigid_poses() const {
                                              : std::vector<double>();
 }
 
-std::vector<std::string> FrameReader::fields() const { return file_->reader.names("/VTKHDF/PointData"); }
+std::vector<std::string> FrameReader::fields() const {
+  auto names = file_->reader.names(all_data);
+  for (std::string& name : names) name = current_output_name(name);
+  std::sort(names.begin(), names.end());
+  return names;
+}
 
 bool FrameReader::knows(std::string const& field) const { return !stored_field(field, fields()).empty(); }
 
@@ -75,7 +86,7 @@ std::string FrameReader::source_of(std::string const& field) const {
 template <class T>
 std::vector<T> FrameReader::rows(std::string const& field) const {
   std::uint64_t const columns = components_in(file_->reader, field);
-  auto values = file_->reader.dataset<T>(data_of(field), columns);
+  auto values = file_->reader.dataset<T>(data_of(file_->reader, field), columns);
   if (values.size() != particles_ * columns) file_->reader.fail(field, "has not one value per point");
   return values;
 }
@@ -86,7 +97,7 @@ FieldInfo FrameReader::info(std::string const& field) const {
     return {field, std::string(derived.unit), components_of(derived)};
   }
   bool const plain = field == "Volume";  // written without a unit
-  return {field, plain ? "" : file_->reader.text(data_of(field), "unit"),
+  return {field, plain ? "" : file_->reader.text(data_of(file_->reader, field), "unit"),
           static_cast<int>(components_in(file_->reader, field))};
 }
 

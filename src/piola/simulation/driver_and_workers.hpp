@@ -15,9 +15,6 @@
 /// (conducted, follow). Only rank 0 has the loop, the observers, the files and the messages.
 namespace piola {
 
-/// Throws InputError with all settings of this case that run on one rank only; does nothing on one rank.
-void refuse_unsupported_on_ranks(Assembly const& assembly, int count = comm::size());
-
 /// Throws ranks::Disagreement on all ranks unless all have generated identical particles and materials. Collective.
 void require_identical_case(Assembly const& assembly);
 

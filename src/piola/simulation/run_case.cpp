@@ -60,7 +60,7 @@ struct Watch {
 namespace {
 
 std::string start_text(Simulation const& s) {
-  return fmt::format("formulation {}, {} particles, {} thread(s), machine {}, end {}", s.formulation_name,
+  return fmt::format("formulation {}, {} particles, {} thread(s), instruction set {}, end {}", s.formulation_name,
                      count_text(s.particles.size()), s.threads, s.spec.run.backend, quantity_text(s.spec.run.end, "s"));
 }
 
@@ -192,8 +192,7 @@ void blame_formula(Simulation const& s, TimeState const& moment, LoopResult& las
 /// Number of repartitions, as text.
 std::string recuts_text(RepartitionStatistics const& repartition_statistics) {
   auto const percent = [](double share) { return fmt::format("{:.0f} %", 100 * share); };
-  std::string text =
-      fmt::format("particles were shared out among the ranks anew {} times", repartition_statistics.imbalance.size());
+  std::string text = fmt::format("particles were repartitioned {} times", repartition_statistics.imbalance.size());
   for (std::size_t k = 0; k < repartition_statistics.imbalance.size() && k < 5; ++k)
     text +=
         (k == 0 ? "; before, the busiest was above the mean by " : ", ") + percent(repartition_statistics.imbalance[k]);

@@ -17,9 +17,9 @@ TEST(AdaptleViscosity, OfOnePairIsAsEquationsSixAndSevenSay) {
   EXPECT_NEAR(pressure, (5328 * 13.730874852883484 + 2 * 188.53692423619834) / 2785, 1e-11);
   // mu = 1 * -2.02 / 1.01 = -2 with h = 1, r = 1
   EXPECT_NEAR(viscous_pair(0.2, 0.4, 1.0, -2.02, 1.0, 1.16 + 1.16, 2.0).pressure, 0.2 * 1.16 * 2 + 0.4 * 4, 1e-14);
-  auto const parting = viscous_pair(1.0, 2.0, h, 1e-3, 1e-8, 2 * 5328.0, 2 * 2785.0);
-  EXPECT_EQ(parting.mu, 0);
-  EXPECT_EQ(parting.pressure, 0);
+  auto const separating = viscous_pair(1.0, 2.0, h, 1e-3, 1e-8, 2 * 5328.0, 2 * 2785.0);
+  EXPECT_EQ(separating.mu, 0);
+  EXPECT_EQ(separating.pressure, 0);
 }
 
 TEST(AdaptleViscosity, SwitchIsOneInCompressionAndSmallElsewhere) {
@@ -40,8 +40,8 @@ TEST(AdaptleViscosity, SwitchIsOneInCompressionAndSmallElsewhere) {
   EXPECT_EQ(compression_factor(spread, c, h, 0.05), 0.05);
   EXPECT_EQ(compression_factor(Mat<3>{}, c, h, 0.05), 0.05);
   // Uniaxial compression beside as fast a shear: D' = diag(-2, 1, 1)/3 with 1/2 off the diagonal, |rot v| = 1.
-  hash_mix(0, 0) = -rate;
-  hash_mix(0, 1) = rate;
+  mixed(0, 0) = -rate;
+  mixed(0, 1) = rate;
   EXPECT_NEAR(compression_factor(mixed, c, h, 0.05), 1 / (std::sqrt(1.5 * (6.0 / 9 + 0.5)) + 1 + small), 1e-14);
   EXPECT_NEAR(balsara_factor(mixed, c, h), 1 / (1 + 1 + 0.1 * small), 1e-14);
 }

@@ -162,7 +162,7 @@ TEST(NodalClosure, TakesFewIterationsWhateverTheSizeAndTheCloud) {
   // With the diagonal alone 73, 435, 127 and 309.
   for (auto const& n : {std::array{5, 25, 5}, std::array{13, 13, 13}})
     for (double const jitter : {0.0, 0.2}) {
-      int const iterations = SetUpBody(nodal_body(brick(3, jitter, n))).reference.closure_iterations;
+      int const iterations = SetUpBody(nodal_body(brick(3, jitter, n))).reference.integration_iterations;
       EXPECT_GT(iterations, 5) << n[0] << " " << jitter;
       EXPECT_LT(iterations, 40) << n[0] << " " << jitter;
     }

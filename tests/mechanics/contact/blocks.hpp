@@ -107,7 +107,7 @@ inline void expect_balance(System const& system, std::vector<Vec<3>> const& x) {
 inline void expect_slopes(System& system, std::vector<Vec<3>> const& x, int dimension) {
   system.evaluate(x, 1e-3);
   auto const forces = system.forces();
-  auto const pushed = system.pushed();
+  auto const pushed = system.loaded_indices();
   ASSERT_GT(pushed.size(), 5U);
   double largest = 0;
   for (Vec<3> const& f : forces) largest = std::max(largest, std::sqrt(dot(f, f)));

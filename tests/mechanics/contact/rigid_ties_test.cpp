@@ -101,9 +101,9 @@ TEST_P(RigidTiesIn, ForcesAreTheSlopesOfTheEnergy) {
       };
       return (at(h) - at(-h)) / (2 * h);
     };
-    for (std::size_t n = 0; n < held.ties.pushed().size(); n += 3)
+    for (std::size_t n = 0; n < held.ties.loaded_indices().size(); n += 3)
       for (int c = 0; c < D; ++c) {
-        auto const i = static_cast<std::size_t>(held.ties.pushed()[n]);
+        auto const i = static_cast<std::size_t>(held.ties.loaded_indices()[n]);
         double const by_place = slope([&](auto& x, auto&, double way) { x[i][c] += way; });
         EXPECT_NEAR(held.ties.forces()[i][c], -by_place, 1e-5 * largest);
       }

@@ -316,9 +316,9 @@ TEST_P(InDimensions, RestoredStateGoesOnBitForBit) {
   auto pressed = places(resumed, blocks.set);
   for (Vec<3>& y : pressed) y[D - 1] -= 0.02;
   resumed.start(pressed);
-  ASSERT_FALSE(resumed.pushed().empty());
+  ASSERT_FALSE(resumed.loaded_indices().empty());
   resumed.restore(x, whole.state());
-  EXPECT_EQ(resumed.pushed(), whole.pushed());
+  EXPECT_EQ(resumed.loaded_indices(), whole.loaded_indices());
   EXPECT_EQ(resumed.state(), whole.state());
   for (int k = 0; k < 20; ++k) {
     move();

@@ -94,7 +94,7 @@ class TiesIn : public ::testing::TestWithParam<int> {};
 
 TEST_P(TiesIn, HoldTheAreaThatTouches) {
   Held held(Stack(GetParam()), elastic());
-  Ties::Found const& found = held.ties.found()[0];
+  Ties::TieReport const& found = held.ties.found()[0];
   double const side = 4 * 0.7, area = GetParam() == 3 ? side * side : side;
   EXPECT_EQ(found.points[1], GetParam() == 3 ? 16 : 4) << "the whole face of the upper block";
   EXPECT_NEAR(found.area / area, 1, 0.25) << "the points of the lower one beyond the rim count in part";
@@ -136,10 +136,10 @@ TEST_P(TiesIn, ForcesAreTheSlopesOfTheEnergy) {
     double largest = 0;
     for (Vec<3> const& f : kept.forces()) largest = std::max(largest, std::sqrt(dot(f, f)));
     ASSERT_GT(largest, 0);
-    for (std::size_t n = 0; n < kept.pushed().size(); n += 3)
+    for (std::size_t n = 0; n < kept.loaded_indices().size(); n += 3)
       for (int c = 0; c < D; ++c) {
         constexpr double h = 1e-6;
-        auto const i = static_cast<std::size_t>(kept.pushed()[n]);
+        auto const i = static_cast<std::size_t>(kept.loaded_indices()[n]);
         auto moved = held.x;
         moved[i][c] += h;
         double high = held.energy(moved);
@@ -179,7 +179,7 @@ std::vector<double> tied_at_both_ends(int D, std::uint32_t seed) {
   Held held(std::move(plates), rule);
   distort(held.x, D, 0.1);
   held.ties.evaluate(held.hosts, held.x);
-  Ties::Found const& found = held.ties.found()[0];
+  Ties::TieReport const& found = held.ties.found()[0];
   Ties::Totals const& totals = held.ties.totals();
   std::vector<double> all{totals.energy, totals.heat, totals.failed, found.area, found.left_area};
   auto const put = [&](Vec<3> const& a) { all.insert(all.end(), a.c, a.c + 3); };

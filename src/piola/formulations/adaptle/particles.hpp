@@ -7,7 +7,6 @@
 #include "piola/formulations/adaptle/law_factors.hpp"
 #include "piola/formulations/adaptle/lost_surfaces.hpp"
 #include "piola/formulations/adaptle/options.hpp"
-#include "piola/formulations/adaptle/particle_order.hpp"
 #include "piola/formulations/adaptle/particle_partition.hpp"
 #include "piola/formulations/adaptle/reference_lists.hpp"
 #include "piola/formulations/adaptle/spatial_lists.hpp"
@@ -65,7 +64,6 @@ class Particles {
   double next_end_time() const;
 
   System const& system() const { return system_; }
-  ParticleOrder const& order() const { return order_; }
   EnergyTotals const& energy_totals() const { return energy_totals_; }
   /// Reduces the actions of the last step over ranks. Collective.
   Resultants actions() const;
@@ -142,7 +140,7 @@ class Particles {
   void set_boundaries();
   void allocate(Assembly const& assembly);
   void choose_material();
-  std::array<double, 3> const& X(Index slot) const { return set_.X[order_.id(slot)]; }
+  std::array<double, 3> const& X(Index slot) const { return set_.X[static_cast<std::size_t>(slot)]; }
   void prepare_supports(double time);
   void prepare_loads(double time);
   void prepare_rigid(double time, double dt);
@@ -159,7 +157,7 @@ class Particles {
   /// Repartitions the particles by their measured work. All values stay bit-identical.
   void rebalance();
   void take(std::vector<Partition> cuts);
-  void hand_over(std::vector<Partition> const& from, std::vector<Partition> const& to);
+  void migrate(std::vector<Partition> const& from, std::vector<Partition> const& to);
   double work_of(Index slot) const;
   std::vector<ImpulseSum> impulses(double time, double dt) const;
   void lose_surface(Index slot);
@@ -169,7 +167,6 @@ class Particles {
   void remove(Index i);
 
   Options options_;
-  ParticleOrder order_;
   Backend const* backend_;
   System system_;
   std::vector<BodyConstants> body_;
@@ -183,7 +180,7 @@ class Particles {
   LazyZeroArray<std::int8_t> conversion_requests_;
   LazyZeroArray<double> position_;
   std::vector<std::uint8_t> eulerian_;
-  MaterialLists material_;
+  ReferenceLists material_;
   SpatialLists spatial_;
   Memory material_records_;
   std::vector<KernelContactPair> contact_pairs_;

@@ -28,8 +28,8 @@ bool invert_moments(double const* A, double* K) {
 
 }  // namespace
 
-void MaterialLists::build(ParticleSet const& set, ParticleOrder const& order, std::vector<BodyConstants> const& bodies,
-                          std::vector<Range> const& own, Fields& fields, Settings const& settings, int lanes) {
+void ReferenceLists::build(ParticleSet const& set, std::vector<BodyConstants> const& bodies,
+                           std::vector<Range> const& own, Fields& fields, Settings const& settings, int lanes) {
   *this = {};
   particles_ = static_cast<Index>(set.size());
   own_ = own;
@@ -38,12 +38,12 @@ void MaterialLists::build(ParticleSet const& set, ParticleOrder const& order, st
   begin_ = LazyZeroArray<Offset>(at(particles_) + 1);
   filled_ = LazyZeroArray<std::uint8_t>(at(particles_));
   part_ = LazyZeroArray<std::uint8_t>(at(particles_) + 16);
-  for (std::size_t b = 0; b < bodies.size(); ++b) list(set, order, {set.bodies[b], bodies[b], own[b]}, lanes);
+  for (std::size_t b = 0; b < bodies.size(); ++b) list(set, {set.bodies[b], bodies[b], own[b]}, lanes);
   find_edge();
   for (Index const i : edge_)
     each_neighbour_of({i, i + 1}, [&](Index j) {
-      for (int c = 0; c < 3; ++c) fields.X.at(j, c) = set.X[order.id(j)][at(c)];
-      fields.volume.at(j) = set.volume[order.id(j)];
+      for (int c = 0; c < 3; ++c) fields.X.at(j, c) = set.X[at(j)][at(c)];
+      fields.volume.at(j) = set.volume[at(j)];
     });
   if (published_) {
     for_each_local([&](Index i) {
@@ -58,12 +58,12 @@ void MaterialLists::build(ParticleSet const& set, ParticleOrder const& order, st
   int const components =
       set.dimension == 2 ? MaterialRecord<2>::values(published_) : MaterialRecord<3>::values(published_);
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    rows_.emplace_back(set, order, LatticeStencils::BodyInput{set.bodies[b], own[b], bodies[b].reference_h}, begin_,
+    rows_.emplace_back(set, LatticeStencils::BodyInput{set.bodies[b], own[b], bodies[b].reference_h}, begin_,
                        neighbour_, lanes, rounded_, components);
   for (LatticeStencils& rows : rows_) row_views_.push_back(rows.view());
 }
 
-void MaterialLists::find_edge() {
+void ReferenceLists::find_edge() {
   if (!comm::is_parallel()) return;
   for (Range const& own : own_)
     for (Index i = own.first; i < own.last; ++i) {
@@ -75,23 +75,23 @@ void MaterialLists::find_edge() {
 
 /// Calls f(slot) for the particles of a body within the search distance of a particle of `own`.
 template <class F>
-void each_around(ParticleSet const& set, ParticleOrder const& order, Range body, Range own, double reach, F const& f) {
+void each_around(ParticleSet const& set, Range body, Range own, double reach, F const& f) {
   std::array<double, 3> low{}, high{};
   for (Index i = own.first; i < own.last; ++i)
     for (std::size_t c = 0; c < 3; ++c) {
-      double const x = set.X[order.id(i)][c];
+      double const x = set.X[at(i)][c];
       low[c] = i == own.first ? x : std::min(low[c], x);
       high[c] = i == own.first ? x : std::max(high[c], x);
     }
   for (Index i = body.first; i < body.last; ++i) {
-    auto const& x = set.X[order.id(i)];
+    auto const& x = set.X[at(i)];
     bool near = true;
     for (std::size_t c = 0; c < 3; ++c) near = near && x[c] >= low[c] - reach && x[c] <= high[c] + reach;
     if (near) f(i);
   }
 }
 
-void MaterialLists::list(ParticleSet const& set, ParticleOrder const& order, BodyInput const& body, int lanes) {
+void ReferenceLists::list(ParticleSet const& set, BodyInput const& body, int lanes) {
   auto const& [geometry, constants, own] = body;
   begin_[at(own.first)] = static_cast<Offset>(neighbour_.size());
   if (own.first == own.last) return;
@@ -100,28 +100,28 @@ void MaterialLists::list(ParticleSet const& set, ParticleOrder const& order, Bod
   auto const& place = set.lattice_index.seen();
   std::vector<std::array<double, 3>> points;
   std::vector<Index> slots;
-  each_around(set, order, {constants.first, constants.last}, own, reach, [&](Index i) {
-    points.push_back(set.X[order.id(i)]);
+  each_around(set, {constants.first, constants.last}, own, reach, [&](Index i) {
+    points.push_back(set.X[at(i)]);
     slots.push_back(i);
   });
   CellGrid const grid(points, reach);
   std::vector<Index> near;
   for (Index i = own.first; i < own.last; ++i) {
-    auto const& x = set.X[order.id(i)];
+    auto const& x = set.X[at(i)];
     near.clear();
     grid.visit(x, [&](Index local) {
       Index const j = slots[at(local)];
-      auto const& y = set.X[order.id(j)];
+      auto const& y = set.X[at(j)];
       double const dx = x[0] - y[0], dy = x[1] - y[1], dz = x[2] - y[2];
       if (j != i && dx * dx + dy * dy + dz * dz < reach * reach) near.push_back(j);
     });
-    std::sort(near.begin(), near.end(), [&](Index a, Index b) { return order.id(a) < order.id(b); });
+    std::sort(near.begin(), near.end());
     for (Index const j : near) {
-      auto const& y = set.X[order.id(j)];
+      auto const& y = set.X[at(j)];
       double square = 0;
       for (std::size_t c = 0; c < 3; ++c) square += (y[c] - x[c]) * (y[c] - x[c]);
       // On a lattice: bit-identical for all pairs of one offset, like the patterns.
-      if (lattice) square = lattice_square(geometry, place[order.id(i)], place[order.id(j)]);
+      if (lattice) square = lattice_square(geometry, place[at(i)], place[at(j)]);
       add_pair(set.dimension, constants.reference_h, j, square);
     }
     std::size_t const found = neighbour_.size();
@@ -132,7 +132,7 @@ void MaterialLists::list(ParticleSet const& set, ParticleOrder const& order, Bod
   }
 }
 
-void MaterialLists::add_pair(int dimension, double h, Index j, double square) {
+void ReferenceLists::add_pair(int dimension, double h, Index j, double square) {
   double s = 0, W = 0;
   if (j < particles_) kernel_of(dimension, h, square, s, W);
   neighbour_.push_back(j);
@@ -143,7 +143,7 @@ void MaterialLists::add_pair(int dimension, double h, Index j, double square) {
 
 /// K from the same rounded s as the sums, so that gradients of linear fields stay exact to double precision; the
 /// identity where there is no correction.
-void MaterialLists::invert(Fields& fields, int dimension, bool corrected) {
+void ReferenceLists::invert(Fields& fields, int dimension, bool corrected) {
   for_each_local([&](Index i) {
     double G[3]{}, A[9]{}, K[9]{1, 0, 0, 0, 1, 0, 0, 0, 1};
     for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
@@ -168,7 +168,7 @@ void MaterialLists::invert(Fields& fields, int dimension, bool corrected) {
 
 /// Recomputes the sums of V0 s r and V0 W, without deleted neighbours.
 template <class F>
-void MaterialLists::sum_gradients(F const& active, Fields& fields) {
+void ReferenceLists::sum_gradients(F const& active, Fields& fields) {
   for_each_local([&](Index i) {
     double G[3]{}, W = 0;
     for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
@@ -183,7 +183,7 @@ void MaterialLists::sum_gradients(F const& active, Fields& fields) {
   });
 }
 
-void MaterialLists::correct(Fields& fields, std::vector<BodyConstants> const& bodies, int dimension) {
+void ReferenceLists::correct(Fields& fields, std::vector<BodyConstants> const& bodies, int dimension) {
   for (std::size_t b = 0; b < bodies.size(); ++b)
     for (Index i = own_[b].first; i < own_[b].last; ++i) {
       double none = 0, W0 = 0, G[3]{}, xW[3]{}, moments[9]{};
@@ -213,7 +213,7 @@ void MaterialLists::correct(Fields& fields, std::vector<BodyConstants> const& bo
     }
 }
 
-void MaterialLists::choose(Fields& fields, bool as_published) {
+void ReferenceLists::choose(Fields& fields, bool as_published) {
   bool deleted = false;
   for (Index i = 0; i < particles_; ++i) deleted = deleted || !(fields.active.at(i) > 0);
   if (deleted || deleted_) sum_gradients([&](Index j) { return fields.active.at(j) > 0; }, fields);
@@ -236,7 +236,7 @@ void MaterialLists::choose(Fields& fields, bool as_published) {
 
 /// Marks particles with a reference neighbour that is not purely total-Lagrangian. The loop runs over the (few)
 /// converted particles and marks their neighbours; particles with ghost neighbours (`edge_`) are checked separately.
-void MaterialLists::mark_mixed(Fields const& fields) {
+void ReferenceLists::mark_mixed(Fields const& fields) {
   auto const other = [&](Index i) { return fields.phi.at(i) > 0; };
   for (Range const& own : own_)
     for (Index i = own.first; i < own.last; ++i) {
@@ -251,7 +251,7 @@ void MaterialLists::mark_mixed(Fields const& fields) {
     });
 }
 
-void MaterialLists::put_into(MaterialTable& table) const {
+void ReferenceLists::put_into(MaterialTable& table) const {
   table.begin = begin_.data();
   table.neighbour = neighbour_.data();
   table.gradient = gradient_.data();
@@ -261,7 +261,7 @@ void MaterialLists::put_into(MaterialTable& table) const {
   table.rows_of = row_views_.data();
 }
 
-std::size_t MaterialLists::bytes() const {
+std::size_t ReferenceLists::bytes() const {
   std::size_t rows = 0;
   for (LatticeStencils const& of_body : rows_) rows += of_body.bytes();
   return rows + part_.size() + sizeof(Offset) * begin_.size() + sizeof(Index) * neighbour_.size() +

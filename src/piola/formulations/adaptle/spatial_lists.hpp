@@ -24,7 +24,6 @@ class SpatialLists {
   void put_into(System& system);
   std::size_t bytes() const;
   Index longest() const { return longest_; }
-  bool overflow() const { return overflow_; }  ///< a particle has more neighbours than can be listed
   /// Whether there are Eulerian particles or contact.
   static bool needed(System const& system) { return system.eulerians > 0 || touching(system); }
   static bool touching(System const& system) { return system.contact.law > 0 && system.bodies > 1; }

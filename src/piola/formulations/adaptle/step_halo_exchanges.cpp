@@ -60,15 +60,14 @@ SlotOrder id_order(ParticleSet const&, Body const& body, int /*ranks*/) {
 
 }  // namespace
 
-StepHaloExchanges::StepHaloExchanges(System const& s, MaterialLists const& lists, std::vector<Partition> cuts,
-                                     ParticleOrder const& order)
-    : near_(cuts, order), cuts_(std::move(cuts)) {
+StepHaloExchanges::StepHaloExchanges(System const& s, ReferenceLists const& lists, std::vector<Partition> cuts)
+    : near_(cuts), cuts_(std::move(cuts)) {
   for (int b = 0; b < s.bodies && lists.built(); ++b) to_neighbours_.push_back(reference_halo(s, lists, b));
 }
 
 /// Displacement, velocity, volume and viscosity before the first sweep, stress data before the second. If particles
 /// beside Eulerian ones remove damping and springs of their neighbours, also F and its rate.
-StepHaloExchanges::ReferenceHalo StepHaloExchanges::reference_halo(System const& s, MaterialLists const& lists,
+StepHaloExchanges::ReferenceHalo StepHaloExchanges::reference_halo(System const& s, ReferenceLists const& lists,
                                                                    int body) const {
   BodyConstants const& b = s.body[body];
   std::vector<Index> read;

@@ -16,8 +16,7 @@ namespace piola::adaptle {
 class StepHaloExchanges {
  public:
   /// system: of a distributed run, with its tables. cuts: partition of each body.
-  StepHaloExchanges(System const& system, MaterialLists const& lists, std::vector<Partition> cuts,
-                    ParticleOrder const& order);
+  StepHaloExchanges(System const& system, ReferenceLists const& lists, std::vector<Partition> cuts);
 
   /// To be called between the parts of a step (Machine), in this order. before_lists() also broadcasts a failure of any
   /// rank and returns the input of the step's lists.
@@ -37,7 +36,7 @@ class StepHaloExchanges {
     FieldRef motion, stress;
     std::vector<FieldRef> hourglass;  ///< F and its rate, if neighbours read them
   };
-  ReferenceHalo reference_halo(System const& system, MaterialLists const& lists, int body) const;
+  ReferenceHalo reference_halo(System const& system, ReferenceLists const& lists, int body) const;
 
   SpatialHaloExchange near_;
   std::vector<Partition> cuts_;

@@ -41,7 +41,7 @@ class ActionsOnBodies : public Resultants {
     ActionsOnBodies all(*this);
     all.due_ = false;
     for (auto const& body : bodies)
-      if (due_) body->boundary().hand_over(all);
+      if (due_) body->boundary().add_resultants_to(all);
     return all;
   }
   /// Reduces the pending impulses over ranks. Collective.

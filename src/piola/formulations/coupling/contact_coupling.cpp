@@ -83,7 +83,7 @@ void ContactCoupling::fold_images() {
   if (images_.empty()) return;
   std::vector<Index> real;
   auto image = images_.begin();
-  for (Index const k : pushed_) {
+  for (Index const k : loaded_indices_) {
     while (image != images_.end() && image->at < k) ++image;
     if (image == images_.end() || image->at != k) {
       real.push_back(k);
@@ -96,7 +96,7 @@ void ContactCoupling::fold_images() {
   }
   std::sort(real.begin(), real.end());
   real.erase(std::unique(real.begin(), real.end()), real.end());
-  pushed_ = std::move(real);
+  loaded_indices_ = std::move(real);
 }
 
 void ContactCoupling::look(Formulations const& formulations) {
@@ -118,19 +118,19 @@ void ContactCoupling::look(Formulations const& formulations) {
 
 /// Contact and ties together.
 void ContactCoupling::sum_forces() {
-  for (Index const k : pushed_) forces_[static_cast<std::size_t>(k)] = {};
+  for (Index const k : loaded_indices_) forces_[static_cast<std::size_t>(k)] = {};
   forces_.resize(x_.size());
-  pushed_.clear();
-  std::set_union(system_.pushed().begin(), system_.pushed().end(), ties_.pushed().begin(), ties_.pushed().end(),
-                 std::back_inserter(pushed_));
-  for (Index const k : system_.pushed())
+  loaded_indices_.clear();
+  std::set_union(system_.loaded_indices().begin(), system_.loaded_indices().end(), ties_.loaded_indices().begin(), ties_.loaded_indices().end(),
+                 std::back_inserter(loaded_indices_));
+  for (Index const k : system_.loaded_indices())
     forces_[static_cast<std::size_t>(k)] = system_.forces()[static_cast<std::size_t>(k)];
   ties_.add_forces(forces_);
   fold_images();
-  std::vector<Index> const surfaces = std::exchange(pushed_, {});
-  std::set_union(surfaces.begin(), surfaces.end(), colours_.pushed().begin(), colours_.pushed().end(),
-                 std::back_inserter(pushed_));
-  for (Index const k : colours_.pushed()) {
+  std::vector<Index> const surfaces = std::exchange(loaded_indices_, {});
+  std::set_union(surfaces.begin(), surfaces.end(), colours_.loaded_indices().begin(), colours_.loaded_indices().end(),
+                 std::back_inserter(loaded_indices_));
+  for (Index const k : colours_.loaded_indices()) {
     auto const i = static_cast<std::size_t>(k);
     forces_[i] = forces_[i] + colours_.forces()[i];
   }
@@ -145,10 +145,10 @@ void ContactCoupling::give(Formulations const& formulations, double time, double
   exec::ReproducibleSum kept_work;
   for (std::size_t s = 0; s < shares_.size(); ++s) {
     GroupParticles const& share = shares_[s];
-    auto pushed = pushed_.begin();
-    for (std::size_t k = 0; k < share.at.size() && pushed != pushed_.end(); ++k) {
-      while (pushed != pushed_.end() && *pushed < share.at[k]) ++pushed;
-      if (pushed == pushed_.end() || *pushed != share.at[k]) continue;
+    auto pushed = loaded_indices_.begin();
+    for (std::size_t k = 0; k < share.at.size() && pushed != loaded_indices_.end(); ++k) {
+      while (pushed != loaded_indices_.end() && *pushed < share.at[k]) ++pushed;
+      if (pushed == loaded_indices_.end() || *pushed != share.at[k]) continue;
       auto const i = static_cast<std::size_t>(share.at[k]);
       Vec<3> impulse = half * forces_[i];
       for (ConstrainedDirection const& held : held_[i]) {
@@ -188,18 +188,18 @@ void ContactCoupling::damp_chatter(Formulations const& formulations, double time
     forces[static_cast<std::size_t>(k)] = damping.impulses()[static_cast<std::size_t>(k)];
   std::vector<Index> pushed = damping.damped();
   std::swap(forces, forces_);
-  std::swap(pushed, pushed_);
+  std::swap(pushed, loaded_indices_);
   std::vector<Vec<3>> before;
-  for (Index const k : pushed_) before.push_back(v_[static_cast<std::size_t>(k)]);
+  for (Index const k : loaded_indices_) before.push_back(v_[static_cast<std::size_t>(k)]);
   give(formulations, time, 1);
   exec::ReproducibleSum loss;
   for (std::size_t n = 0; n < before.size(); ++n) {
-    auto const k = static_cast<std::size_t>(pushed_[n]);
+    auto const k = static_cast<std::size_t>(loaded_indices_[n]);
     loss += -0.5 * dot(forces_[k], before[n] + v_[k]);
   }
   chatter_loss_ += loss.value();
   std::swap(forces, forces_);
-  std::swap(pushed, pushed_);
+  std::swap(pushed, loaded_indices_);
 }
 
 /// Records the impulses between rigid shapes and pairs of bodies in `half` [s].
@@ -251,7 +251,7 @@ void ContactCoupling::finish(Formulations const& formulations, double time, doub
   drop_lost_surfaces(formulations);
   ties_.evaluate(system_, x_);
   system_.evaluate(x_, dt);
-  ties_.hand_over(system_);
+  ties_.transfer_energy(system_);
   motion_.evaluate(system_, dt);
   colours_.evaluate(x_, mass_);
   sum_forces();
@@ -310,7 +310,7 @@ void ContactCoupling::report(Diagnostics& sum) const {
   double& overlap = column("contact_overlap");
   overlap = std::max({overlap, now.deepest, between.deepest, colours_.totals().deepest});
   column("friction_heat") = friction_work_ - now.spring_energy;
-  column("contact_dissipation") = chatter_loss_;
+  column("chatter_damping_loss") = chatter_loss_;
   column("contact_points") = static_cast<double>(now.touched) + between.touched + colours_.totals().touched;
   ties_.report(sum);
   auto const named = [&](std::size_t k) {

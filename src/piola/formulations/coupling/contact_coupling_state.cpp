@@ -26,7 +26,7 @@ void ContactCoupling::save(StateWriter& writer) const {
 void ContactCoupling::load(StateReader& reader) {
   std::vector<double> rigid(4 + 6 * (shapes_.size() + pair_impulses_.size()));
   reader.get("contact", rigid);
-  contact::Numbers from(rigid);
+  contact::StateVector from(rigid);
   for (double* number : {&work_, &last_dt_, &friction_work_, &chatter_loss_}) *number = from.next();
   for (std::size_t r = 0; r < shapes_.size(); ++r) {
     from.take(system_.rigid(r).centre);

@@ -130,7 +130,7 @@ void fill_part(Assembly const& whole, FormulationGroup& part) {
     a.ties.push_back(std::move(tie));
   }
   take_contact(whole, part);
-  a.pushed = !whole.surfaces.empty();
+  a.coupled = !whole.surfaces.empty();
   a.cfl = whole.cfl;
   a.backend = whole.backend;
   a.repartition = whole.repartition;

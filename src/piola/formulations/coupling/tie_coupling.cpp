@@ -64,7 +64,7 @@ double TieCoupling::settled_frequency2() const {
   return frequency2_ + (springs_.empty() ? 0 : *std::max_element(springs_.begin(), springs_.end()));
 }
 
-void TieCoupling::hand_over(contact::SurfaceContactSystem const& system) {
+void TieCoupling::transfer_energy(contact::SurfaceContactSystem const& system) {
   exec::ReproducibleSum stored;
   for (std::size_t const row : ties_.released())
     stored += system.stored_at(ties_.hold(row).body, ties_.hold(row).point, ties_.hold(row).other);
@@ -72,7 +72,7 @@ void TieCoupling::hand_over(contact::SurfaceContactSystem const& system) {
 }
 
 void TieCoupling::add_forces(std::vector<Vec<3>>& forces) const {
-  for (Index const k : ties_.pushed()) {
+  for (Index const k : ties_.loaded_indices()) {
     auto const i = static_cast<std::size_t>(k);
     forces[i] = forces[i] + ties_.forces()[i];
   }
@@ -91,8 +91,8 @@ void TieCoupling::report(Diagnostics& sum) const {
   if (!any()) return;
   auto const& now = ties_.totals();
   sum.more.emplace_back("tie_energy", now.energy);
-  sum.more.emplace_back("tie_heat", now.heat - handed_over_);
-  sum.more.emplace_back("tie_failed", now.failed);
+  sum.more.emplace_back("tie_dissipation", now.heat - handed_over_);
+  sum.more.emplace_back("tie_failed_fraction", now.failed);
 }
 
 void TieCoupling::add_actions(double scale, std::vector<Action>& all) const {
@@ -113,7 +113,7 @@ void TieCoupling::load(StateReader& reader) {
   if (!any()) return;
   std::vector<double> all(2 * ties_.count() + numbers_of_impulse * impulses_.size() + 1);
   reader.get("ties", all);
-  contact::Numbers from(all);
+  contact::StateVector from(all);
   loaded_.clear();
   for (std::size_t k = 0; k < 2 * ties_.count(); ++k) loaded_.push_back(from.next());
   for (auto& impulse : impulses_) {

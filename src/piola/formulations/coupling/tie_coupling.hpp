@@ -21,8 +21,8 @@ class TieCoupling {
                                                                                        ///< rigid shapes in `system`
   /// Accounts for the energy that contact stores at points whose tie has just failed, as supplied by the ties. Call
   /// after contact has been evaluated.
-  void hand_over(contact::SurfaceContactSystem const& system);
-  std::vector<Index> const& pushed() const { return ties_.pushed(); }
+  void transfer_energy(contact::SurfaceContactSystem const& system);
+  std::vector<Index> const& loaded_indices() const { return ties_.loaded_indices(); }
   void add_forces(std::vector<Vec<3>>& forces) const;
 
   void begin();                             ///< starts a step

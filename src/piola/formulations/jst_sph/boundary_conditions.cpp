@@ -156,8 +156,8 @@ void Boundary::end_step(BodyState& state) {
   }
 }
 
-void Boundary::hand_over(Resultants& actions) const {
-  driven_.hand_over(actions);
+void Boundary::add_resultants_to(Resultants& actions) const {
+  driven_.add_resultants_to(actions);
   for (std::size_t k = 0; multipliers_ && k < multipliers_->impulses().size() && k < actions.supports.size(); ++k)
     actions.supports[k].add(multipliers_->impulses()[k]);
 }

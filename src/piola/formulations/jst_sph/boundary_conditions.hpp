@@ -32,7 +32,7 @@ class Boundary {
   /// Sets the local slots of a distributed body. Call before attach().
   void share(Range own);
   /// Adds the impulses of supports and loads in the last step. Collective if the body is distributed.
-  void hand_over(Resultants& actions) const;
+  void add_resultants_to(Resultants& actions) const;
   void reset_impulses() { driven_.reset_impulses(); }
   /// State for a checkpoint in addition to fields: accelerations by supports at the end of the last step, replicated on
   /// all ranks. Collective if the body is distributed.

@@ -41,7 +41,7 @@ class Solver final : public Formulation {
       monitors_.push_back(options.cfl > 0 ? nullptr : std::make_unique<StabilityMonitor>(*bodies_.back(), *backend_));
     }
     find_largest_speeds();
-    if (assembly.pushed) slots_ = SlotsById(set_, bodies_);
+    if (assembly.coupled) slots_ = SlotsById(set_, bodies_);
   }
 
   double stable_time_step() const override {

@@ -117,9 +117,9 @@ void Boundary::end_step(BodyState& state) {
   driven_.remove_ended(state.a);
 }
 
-void Boundary::hand_over(Resultants& actions) const {
-  driven_.hand_over(actions);
-  surface_.hand_over(actions);
+void Boundary::add_resultants_to(Resultants& actions) const {
+  driven_.add_resultants_to(actions);
+  surface_.add_resultants_to(actions);
 }
 
 void Boundary::damp(BodyState& state, double factor) const {

@@ -39,7 +39,7 @@ class Boundary {
   double next_end_time(double time) const { return driven_.next_end_time(time); }
 
   /// Adds the impulses of supports and loads since reset_impulses().
-  void hand_over(Resultants& actions) const;
+  void add_resultants_to(Resultants& actions) const;
   void reset_impulses() {
     driven_.reset_impulses();
     surface_.reset_impulses();

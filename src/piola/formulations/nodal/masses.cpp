@@ -17,7 +17,7 @@ constexpr double restraint = 0.9;  ///< factor on the transfers of a cell that m
 constexpr int most_rounds = 400;
 
 template <int D>
-struct Exchange {
+struct MassTransfer {
   IndexSet rows;  ///< with pairs on this rank
   Pairs pairs;
   std::vector<double> handed;  ///< V_a phi_ab, per pair of a
@@ -39,7 +39,7 @@ void cell_monomials(ScaledCell const& cell, double (&T)[Quadratic<D>::terms]) {
 
 /// phi_ab = w p . A^-1 T_a: reproduces the cell's moments up to the second, for fields that are exact at a itself.
 template <int D>
-void hand_over_cell(Points const& X, ScaledCell const& cell, std::size_t a, Exchange<D>& x) {
+void transfer_masses_of_cell(Points const& X, ScaledCell const& cell, std::size_t a, MassTransfer<D>& x) {
   constexpr int terms = Quadratic<D>::terms;
   double A[terms * terms]{}, T[terms];
   std::vector<std::array<double, static_cast<std::size_t>(terms)>> of_pair;
@@ -70,8 +70,8 @@ void hand_over_cell(Points const& X, ScaledCell const& cell, std::size_t a, Exch
 
 /// The pairs of the particles of this rank and of their neighbours.
 template <int D>
-Exchange<D> pairs_in_reach(Points const& X, std::vector<Index> const& alike, MassInput const& of) {
-  Exchange<D> x{IndexSet(static_cast<Index>(X.size())), {}, {}};
+MassTransfer<D> pairs_in_reach(Points const& X, std::vector<Index> const& alike, MassInput const& of) {
+  MassTransfer<D> x{IndexSet(static_cast<Index>(X.size())), {}, {}};
   if (of.lattice) {
     std::vector<std::size_t> first;
     for (std::size_t a = 0; a < alike.size(); ++a)
@@ -93,15 +93,15 @@ Exchange<D> pairs_in_reach(Points const& X, std::vector<Index> const& alike, Mas
 
 /// Transfers between cells; on a lattice once per kind of cell.
 template <int D>
-Exchange<D> hand_over(Points const& X, LazyZeroArray<ScaledCell> const& cells, MassInput const& of) {
+MassTransfer<D> transfer_masses(Points const& X, LazyZeroArray<ScaledCell> const& cells, MassInput const& of) {
   std::vector<Index> const alike = of.lattice ? representatives_in_lattice(*of.lattice, static_cast<int>(reach))
                                               : std::vector<Index>();  // at `reach` there is none
-  Exchange<D> x = pairs_in_reach<D>(X, alike, of);
+  MassTransfer<D> x = pairs_in_reach<D>(X, alike, of);
   x.handed.assign(x.pairs.neighbour.size(), 0);
   auto const is_first = [&](std::size_t a) { return !of.lattice || alike[a] == static_cast<Index>(a); };
   exec_host::parallel_for(x.rows.size(), [&](Index row) {
     std::size_t const a = x.rows[row];
-    if (is_first(a)) hand_over_cell<D>(X, cells[a], a, x);
+    if (is_first(a)) transfer_masses_of_cell<D>(X, cells[a], a, x);
   });
   exec_host::parallel_for(x.rows.size(), [&](Index row) {
     std::size_t const a = x.rows[row];
@@ -119,7 +119,7 @@ Exchange<D> hand_over(Points const& X, LazyZeroArray<ScaledCell> const& cells, M
 class MassLimiter {
  public:
   template <int D>
-  MassLimiter(Exchange<D> const& x, LazyZeroArray<ScaledCell> const& cells, MassInput const& of)
+  MassLimiter(MassTransfer<D> const& x, LazyZeroArray<ScaledCell> const& cells, MassInput const& of)
       : pairs_(x.pairs),
         handed_(x.handed),
         cells_(cells),
@@ -307,7 +307,7 @@ void match_moments(Points const& X, LazyZeroArray<ScaledCell> const& cells, Rang
 
 template <int D>
 LazyZeroArray<double> exact_masses(Points const& X, LazyZeroArray<ScaledCell> const& cells, MassInput const& of) {
-  auto const x = hand_over<D>(X, cells, of);
+  auto const x = transfer_masses<D>(X, cells, of);
   LazyZeroArray<double> mass = MassLimiter(x, cells, of)();
   Range const own = of.shared ? of.shared->own() : Range{0, static_cast<Index>(X.size())};
   if (of.match) match_moments<D>(X, cells, own, of.shared.has_value(), mass);

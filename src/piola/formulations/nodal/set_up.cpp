@@ -2,7 +2,7 @@
 #include "piola/formulations/nodal/set_up.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/exec/host_loops.hpp"
-#include "piola/formulations/nodal/closure_check.hpp"
+#include "piola/formulations/nodal/integration_check.hpp"
 #include "piola/formulations/nodal/constrained_facets.hpp"
 #include "piola/formulations/nodal/integration_constraint.hpp"
 #include "piola/formulations/nodal/load_integrals.hpp"
@@ -294,10 +294,10 @@ bool is_slender(SetUp const& from) {
 }
 
 /// The lattice of a body for loops, if possible. Lists are needed by follower pressures, which use gradients particle
-/// by particle, by images, which are not on the lattice, and by shuffled bodies.
+/// by particle, and by images, which are not on the lattice.
 std::optional<LatticeShape> shape_for_loops(SetUp const& from) {
   bool const follows = std::any_of(from.loads.begin(), from.loads.end(), [](Load const& load) { return load.follows; });
-  if (follows || from.images != nullptr || shuffle_forces_lists() || is_slender(from)) return std::nullopt;
+  if (follows || from.images != nullptr || is_slender(from)) return std::nullopt;
   return lattice_shape(from.set, from.body, from.order);
 }
 
@@ -309,13 +309,13 @@ void refuse_without_cell(SetUp const& from, ScaledBody const& scaled) {
 }
 
 template <int D>
-IntegrationCorrection find_closure(SetUp const& from, IntegrationConstraint<D> const& divergence,
+IntegrationCorrection find_integration_correction(SetUp const& from, IntegrationConstraint<D> const& divergence,
                                    SymmetryReduction<D> const* fold, Reference& r) {
   IntegrationCorrection integration_correction =
-      divergence.solve(from.closure_tolerance, from.backend, r.lattice ? &*r.lattice : nullptr, {fold, r.halo.get()});
+      divergence.solve(from.integration_tolerance, from.backend, r.lattice ? &*r.lattice : nullptr, {fold, r.halo.get()});
   if (integration_correction.rounding > most_rounding) r.lattice.reset();  // lists take differences of positions first
-  r.closure_iterations = integration_correction.iterations;
-  check_closure(from, integration_correction, r.checks);
+  r.integration_iterations = integration_correction.iterations;
+  check_integration(from, integration_correction, r.checks);
   return integration_correction;
 }
 
@@ -357,7 +357,7 @@ Reference make(SetUp const& from) {
   if (shared) r.halo = std::make_unique<HaloPlan>(shared->slots, ghost_neighbours(fits.pairs(), fits.own()));
   r.costs.fits = since(clock);
   IntegrationConstraint<D> const divergence(fits, scaled.cells, scaled.patches);
-  IntegrationCorrection const integration_correction = find_closure<D>(from, divergence, fold ? &*fold : nullptr, r);
+  IntegrationCorrection const integration_correction = find_integration_correction<D>(from, divergence, fold ? &*fold : nullptr, r);
   r.parts = load_integrals<D>(from, fits, divergence, {scaled.h, r.checks});
   for (auto& parts : r.parts) parts.resize(std::min(parts.size(), scaled.particles));
   r.held = constrained_facets<D>(from, fits, scaled.patches, scaled.h);

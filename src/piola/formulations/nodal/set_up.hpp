@@ -38,7 +38,7 @@ struct SetUp {
   Backend const& backend;                ///< instruction set of the loops that solve for the divergence theorem
   MirrorImages const* images = nullptr;  ///< the whole body behind its mirror planes; nullptr: it has none
   /// Tolerance of the residual of the divergence theorem; smaller values change no result.
-  double closure_tolerance = 1e-3;
+  double integration_tolerance = 1e-3;
   std::optional<Range> own = std::nullopt;  ///< local slots if the body is distributed; empty: all
 
   /// Whether the set-up is distributed over ranks. With mirror planes, or surface places that supports hold, each rank
@@ -73,7 +73,7 @@ struct Reference {
   LazyZeroArray<double> share;           ///< fraction of a particle's volume in the body itself; empty: no planes
   std::optional<LatticeLayout> lattice;  ///< replaces the lists if particles fill a lattice
   std::unique_ptr<HaloPlan> halo;        ///< of ghosts, without fields; nullptr on one rank
-  int closure_iterations = 0;
+  int integration_iterations = 0;
   std::vector<SetUpCheck> checks;
   SetUpCosts costs;
 

@@ -34,7 +34,7 @@ class Solver final : public Formulation, public SetUpChecked {
       bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, backend_));
       monitors_.push_back(std::make_unique<StabilityMonitor>(*bodies_.back(), backend_));
     }
-    pushed_ = assembly.pushed;
+    pushed_ = assembly.coupled;
     if (pushed_) slots_ = SlotsById(set_, bodies_);
   }
 
@@ -96,7 +96,7 @@ class Solver final : public Formulation, public SetUpChecked {
       if (moved[k] == 0) continue;
       bodies_[k]->boundary().project_out_reactions(bodies_[k]->state());
       if (!ends_step_) continue;
-      bodies_[k]->boundary().hand_over(actions_);
+      bodies_[k]->boundary().add_resultants_to(actions_);
       bodies_[k]->boundary().reset_impulses();
     }
     ends_step_ = false;

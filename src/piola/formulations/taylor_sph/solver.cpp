@@ -98,7 +98,7 @@ class Solver final : public Formulation {
   }
   void add_velocities(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
     visit(ids, [&](std::size_t k, TaylorBody& body, Index i) { body.add_velocities(i, change[k]); });
-    for (auto const& body : bodies_) body->pushed();
+    for (auto const& body : bodies_) body->velocities_changed();
   }
   double kinetic_energy() const override {
     return parallel_sum(bodies_, [](auto const& body) { return body.kinetic_energy(); });
@@ -122,7 +122,7 @@ class Solver final : public Formulation {
     d.more = {{"list_updates", more[1]},
               {"triangulations", more[2]},
               {"centred_energy", d.total_energy() - more[3]},
-              {"parting", more[4]}};
+              {"strain_drift", more[4]}};
     return d;
   }
 

@@ -149,7 +149,7 @@ ColourContact::Seen ColourContact::look(Pass const& pass, std::size_t target, st
 void ColourContact::add(Index k, Vec<3> const& f) {
   if (is_pushed_[number(k)] == 0) {
     is_pushed_[number(k)] = 1;
-    pushed_.push_back(k);
+    loaded_indices_.push_back(k);
   }
   forces_[number(k)] = forces_[number(k)] + f;
 }
@@ -193,11 +193,11 @@ void ColourContact::evaluate(std::vector<Vec<3>> const& x, std::vector<double> c
     stiffness_.assign(x.size(), 0);
     is_pushed_.assign(x.size(), 0);
   }
-  for (Index const k : pushed_) {
+  for (Index const k : loaded_indices_) {
     forces_[number(k)] = {};
     is_pushed_[number(k)] = 0;
   }
-  pushed_.clear();
+  loaded_indices_.clear();
   std::fill(stiffness_.begin(), stiffness_.end(), 0.0);
   on_first_.assign(pairs_.size(), {});
   totals_ = {};
@@ -211,7 +211,7 @@ void ColourContact::evaluate(std::vector<Vec<3>> const& x, std::vector<double> c
     for (std::size_t k = 0; k < seen.size(); ++k) push(pass, k, seen[k], x, energy);
   }
   totals_.energy = energy.value();
-  std::sort(pushed_.begin(), pushed_.end());
+  std::sort(loaded_indices_.begin(), loaded_indices_.end());
   for (std::size_t k = 0; k < masses.size(); ++k)
     if (stiffness_[k] > 0 && masses[k] > 0)
       totals_.frequency2 = std::max(totals_.frequency2, stiffness_[k] / masses[k]);

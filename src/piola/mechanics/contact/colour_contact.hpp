@@ -45,7 +45,7 @@ class ColourContact {
   /// forces are sums of central ones between pairs of particles.
   void evaluate(std::vector<Vec<3>> const& x, std::vector<double> const& masses);
   std::vector<Vec<3>> const& forces() const { return forces_; }
-  std::vector<Index> const& pushed() const { return pushed_; }  ///< ascending
+  std::vector<Index> const& loaded_indices() const { return loaded_indices_; }  ///< ascending
 
   struct Totals {
     double energy = 0;      ///< stored [J]
@@ -95,7 +95,7 @@ class ColourContact {
   std::vector<Vec<3>> forces_;
   std::vector<double> stiffness_;  ///< by particle: bound of its row of second derivatives [N/m]
   std::vector<char> is_pushed_;
-  std::vector<Index> pushed_;
+  std::vector<Index> loaded_indices_;
   std::vector<ForceMomentSum> on_first_;
   Totals totals_;
 };

@@ -63,8 +63,8 @@ std::vector<double> SurfaceContactSystem::state() const {
   put_sides(all);
   all.insert(all.end(),
              {totals_.energy, totals_.deepest, totals_.frequency2, totals_.spring_energy, totals_.friction_work,
-              static_cast<double>(totals_.touched), static_cast<double>(pushed_.size())});
-  for (Index const k : pushed_) {
+              static_cast<double>(totals_.touched), static_cast<double>(loaded_indices_.size())});
+  for (Index const k : loaded_indices_) {
     all.push_back(k);
     put(all, forces_[at(k)]);
   }

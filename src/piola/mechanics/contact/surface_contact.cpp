@@ -13,7 +13,7 @@ constexpr double closing = 0.1;  // of a spacing in a step
 
 }  // namespace
 
-SurfaceContactSystem::System(ParticleSet const& particles, std::vector<Surface> surfaces,
+SurfaceContactSystem::SurfaceContactSystem(ParticleSet const& particles, std::vector<Surface> surfaces,
                              std::vector<RigidSurface> rigids, Setting setting)
     : surfaces_(std::move(surfaces)),
       rigids_(std::move(rigids)),
@@ -227,7 +227,7 @@ void SurfaceContactSystem::push_from_rigids(std::vector<Vec<3>> const& x) {
 void SurfaceContactSystem::add_force(Index id, Vec<3> const& f) {
   if (is_pushed_[at(id)] == 0) {
     is_pushed_[at(id)] = 1;
-    pushed_.push_back(id);
+    loaded_indices_.push_back(id);
     forces_[at(id)] = {};
   }
   forces_[at(id)] = forces_[at(id)] + f;
@@ -279,7 +279,7 @@ void SurfaceContactSystem::add_up() {
 }
 
 void SurfaceContactSystem::forget_forces() {
-  for (Index const k : pushed_) {
+  for (Index const k : loaded_indices_) {
     forces_[at(k)] = {};
     is_pushed_[at(k)] = 0;
   }
@@ -287,7 +287,7 @@ void SurfaceContactSystem::forget_forces() {
   std::fill(heat_.begin(), heat_.end(), 0.0);
   std::fill(normal_force_.begin(), normal_force_.end(), 0.0);
   std::fill(gap_.begin(), gap_.end(), std::numeric_limits<double>::infinity());
-  pushed_.clear();
+  loaded_indices_.clear();
   loaded_points_.clear();
   totals_ = {};
   std::fill(on_rigid_.begin(), on_rigid_.end(), ForceMoment{});
@@ -320,7 +320,7 @@ void SurfaceContactSystem::add_velocities_of(std::vector<Vec<3>> const& x) {
     }
     add_force(hosts_.self(p.host), own);
   }
-  std::sort(pushed_.begin(), pushed_.end());
+  std::sort(loaded_indices_.begin(), loaded_indices_.end());
 }
 
 double SurfaceContactSystem::contact_time_step(std::vector<Vec<3>> const& v) const {

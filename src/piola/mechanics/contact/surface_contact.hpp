@@ -86,7 +86,7 @@ class SurfaceContactSystem {
   void restore(std::vector<Vec<3>> const& x, std::vector<double> const& state);
   std::vector<Vec<3>> const& forces() const { return forces_; }
   /// Indices of ids() that have a force, ascending.
-  std::vector<Index> const& pushed() const { return pushed_; }
+  std::vector<Index> const& loaded_indices() const { return loaded_indices_; }
   Totals const& totals() const { return totals_; }
   std::vector<Passed> const& passed() const { return passed_; }  ///< since the start
   using ForceMoment = contact::ForceMoment;
@@ -318,7 +318,7 @@ class SurfaceContactSystem {
   std::vector<Vec<3>> last_x_;        ///< of the last evaluation
   std::vector<RigidPose> last_pose_;  ///< of rigid shapes
   std::vector<Vec<3>> forces_;
-  std::vector<Index> pushed_;
+  std::vector<Index> loaded_indices_;
   std::vector<char> is_pushed_;
   std::vector<ForceMoment> on_rigid_;
   struct Tied {

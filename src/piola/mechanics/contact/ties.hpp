@@ -49,7 +49,7 @@ class Ties {
   /// Computes the forces [N] at x [m]: functions of x and of the largest openings so far, which it updates.
   void evaluate(HostParticles const& hosts, std::vector<Vec<3>> const& x, std::vector<RigidSurface> const& rigids = {});
   std::vector<Vec<3>> const& forces() const { return forces_; }
-  std::vector<Index> const& pushed() const { return touched_; }  ///< ascending
+  std::vector<Index> const& loaded_indices() const { return touched_; }  ///< ascending
 
   struct Totals {
     double energy = 0;  ///< stored [J]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/formulations/nodal/closure_check.hpp"
+#include "piola/formulations/nodal/integration_check.hpp"
 #include "piola/base/errors.hpp"
 #include <algorithm>
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ constexpr double steepest_gradient = 10;
 
 }  // namespace
 
-void check_closure(SetUp const& from, IntegrationCorrection const& integration_correction,
+void check_integration(SetUp const& from, IntegrationCorrection const& integration_correction,
                    std::vector<SetUpCheck>& checks) {
   auto const& n = from.body.lattice;
   bool const wrong =

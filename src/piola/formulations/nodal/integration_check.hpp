@@ -7,7 +7,7 @@ namespace piola::nodal {
 
 /// Adds iterations, residual and largest gradient to `checks`. Throws InputError if gradients violate the divergence
 /// theorem, which creates spurious forces, or are so steep that steps become short.
-void check_closure(SetUp const& from, IntegrationCorrection const& integration_correction,
+void check_integration(SetUp const& from, IntegrationCorrection const& integration_correction,
                    std::vector<SetUpCheck>& checks);
 
 }  // namespace piola::nodal
