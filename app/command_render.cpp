@@ -143,7 +143,7 @@ int render(RenderArguments options) {
   what.outline = !options.no_outline;
   if (!options.cut.empty()) {
     auto const& c = options.cut;
-    what.cut = CutPlane{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, options.ghost, false};
+    what.cut = AppearanceSpec::Cut{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, options.ghost, false};
   }
   if (!options.range.empty()) what.range = {options.range[0], options.range[1]};
   if (!options.film.file.empty()) {

@@ -30,15 +30,20 @@ struct Plan {
 Plan plan_of(CaseSpec const& spec) {
   OutputSpec const& o = spec.output;
   auto const times = [&](double every) { return every > 0 ? std::floor(spec.run.end / every) + 1 : 0; };
-  return {o.history_every > 0 ? times(o.history_every) : 501, times(o.frames_every), times(o.pictures.every),
+  double const frames = times(o.frames_every), pictures = times(o.pictures.every);
+  // Every picture has a frame, which may also be one of the others.
+  double const ratio = frames > pictures ? o.pictures.every / o.frames_every : o.frames_every / o.pictures.every;
+  bool const coincide = frames == 0 || pictures == 0 || std::abs(ratio - std::round(ratio)) < 1e-9 * ratio;
+  return {o.history_every > 0 ? times(o.history_every) : 501,
+          coincide ? std::max(frames, pictures) : frames + pictures - 1, pictures,
           std::max(1.0, times(o.checkpoints_every))};
 }
 
 /// Bytes of a frame per particle: positions, cells, numbers and fields.
 double frame_bytes(OutputSpec const& output, std::vector<FieldInfo> const& fields) {
   double numbers = 4;  // position and volume
+  auto const chosen = fields_of_frames(output);
   for (FieldInfo const& field : fields) {
-    auto const& chosen = output.frame_fields;
     if (chosen.empty() || std::find(chosen.begin(), chosen.end(), field.name) != chosen.end())
       numbers += field.components;
   }

@@ -281,6 +281,17 @@ struct OutputSpec {
   bool compress = true;
 };
 
+/// Fields of the frames of a run: those that the case asks for and those of its pictures; empty: all of the
+/// formulation. `failed`: in the last state of a failed run, which has all where only pictures are asked for.
+inline std::vector<std::string> fields_of_frames(OutputSpec const& output, bool failed = false) {
+  std::vector<std::string> fields = output.frame_fields;
+  bool const pictures_alone = output.frames_every <= 0 && !failed;
+  if (output.pictures.every <= 0 || (fields.empty() && !pictures_alone)) return fields;
+  fields.insert(fields.end(), {output.pictures.field, "Damage", "KernelType"});
+  for (PictureSpec const& panel : output.pictures.panels) fields.push_back(panel.field);
+  return fields;
+}
+
 /// A whole case: plain values in SI, checked.
 struct CaseSpec {
   std::string title;

@@ -284,10 +284,10 @@ void evaluate_probes_collectively(double time, std::function<void()> const& look
   look();
 }
 
-void write_frame_collectively(std::function<void()> const& write) {
+void write_frame_collectively(bool failed, std::function<void()> const& write) {
   GatherTimer const gathering;
   ExcludeFromStepTraffic const aside;
-  if (comm::is_parallel() && comm::rank() == 0) send({Command::What::frame});
+  if (comm::is_parallel() && comm::rank() == 0) send({.what = Command::What::frame, .code = failed ? 1 : 0});
   write();
 }
 
@@ -309,7 +309,8 @@ int follow(Simulation& simulation) {
     } else if (order.what == Command::What::frame) {
       FieldCache cache(formulation, simulation.particles, FieldCache::Of::local);
       CollectiveTableWriter part(nullptr);
-      FrameContent(simulation.spec.output.frame_fields, simulation.spec.output.compress, cache).put(part);
+      OutputSpec const& output = simulation.spec.output;
+      FrameContent(fields_of_frames(output, order.code != 0), output.compress, cache).put(part);
     } else {
       execute_command(formulation, order);
     }

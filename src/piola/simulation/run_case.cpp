@@ -9,12 +9,12 @@
 #include "piola/observers/results_folder.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/output/folder_lock.hpp"
-#include "piola/pictures/picture_observer.hpp"
 #include "piola/setup/packed_bodies.hpp"
 #include "piola/simulation/driver_and_workers.hpp"
 #include "piola/simulation/dynamic_relaxation.hpp"
 #include "piola/simulation/guard_observer.hpp"
 #include "piola/simulation/observers.hpp"
+#include "piola/simulation/picture_observer.hpp"
 #include "piola/simulation/restore.hpp"
 #include "piola/simulation/run_summary.hpp"
 #include <algorithm>
@@ -39,7 +39,7 @@ struct Watch {
       : history(results),
         guards(results, mass, history),
         frames(results),
-        pictures(results),
+        pictures(results, frames),
         relaxation(results.spec.run, results.particles, mass),
         checkpoints(results, {&history, &guards, &frames, &pictures, &relaxation}, orders),
         progress(listener, results.spec.run.end, results.particles.size(), history),
