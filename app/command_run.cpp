@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/simulation/driver_and_workers.hpp"
 #include "piola/observers/results_folder.hpp"
+#include "piola/simulation/driver_and_workers.hpp"
 #include "commands.hpp"
 #include "run_support.hpp"
 #include "set_up_watch.hpp"

@@ -61,7 +61,7 @@ struct Mesh {
   std::array<std::ptrdiff_t, 3> cells{};
   std::array<double, 3> spacing{}, low{};
   std::ptrdiff_t row = 0, layer = 0, size = 0;
-  std::vector<double> active;                    ///< 1 where a brick begins, else 0
+  std::vector<double> active;                   ///< 1 where a brick begins, else 0
   std::vector<double> mass;                     ///< lumped, kg; 0 at padding
   std::array<std::vector<double>, 3> x, v, f;   ///< m, m/s (half a step back), N (minus the internal force)
   std::array<std::vector<double>, 3> mobility;  ///< 1/mass, or 0 where a component is held

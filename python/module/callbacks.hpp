@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/simulation/observers.hpp"
 #include "piola/observers/output_schedule.hpp"
+#include "piola/simulation/observers.hpp"
 #include "case.hpp"
 #include <atomic>
 #include <exception>
@@ -54,7 +54,8 @@ class SignalObserver : public Observer {
 class SupportFunction {
  public:
   /// X: the points of the support [m].
-  SupportFunction(py::function call, std::string name, std::vector<std::array<double, 3>> X, Wishes& conversion_requests);
+  SupportFunction(py::function call, std::string name, std::vector<std::array<double, 3>> X,
+                  Wishes& conversion_requests);
   ~SupportFunction();
   SupportFunction(SupportFunction const&) = delete;
   SupportFunction& operator=(SupportFunction const&) = delete;

@@ -23,31 +23,31 @@ std::vector<Kind> kinds() {
   auto const jst = [](std::map<std::string, std::string, std::less<>> words) {
     return [words](ParticleSet set) { return with_words(assemble(std::move(set)), words); };
   };
-  return {
-      {"filtered", jst({{"scheme", "filtered"}})},
-      {"paper", jst({{"scheme", "paper"}})},
-      {"displacement", jst({{"variables", "displacement"}})},
-      {"multipliers", jst({{"scheme", "filtered"}, {"supports", "multipliers"}})},
-      {"multipliers_rk2", jst({{"scheme", "paper"}, {"supports", "multipliers"}})},
-      {"taylor_sph",
-       [](ParticleSet set) {
-         return with_words(assemble_taylor(std::move(set)), {{"configuration", "updated"}});
-       }},
-      {"taylor_estimates",
-       [](ParticleSet set) {
-         return with_words(assemble_taylor(std::move(set)), {{"configuration", "updated"}, {"exchange", "kernel_sums"}});
-       }},
-      {"nodal",
-       [](ParticleSet set) {
-         Assembly a = assemble(std::move(set));
-         for (auto& f : a.formulations) f = {"nodal", {}, {}};
-         return a;
-       }},
-      {"adaptle", [](ParticleSet set) {
-         Assembly a = assemble(std::move(set), sample_metal("elastic", "elastic"));
-         for (auto& f : a.formulations) f = {"adaptle", {}, {}};
-         return a;
-       }}};
+  return {{"filtered", jst({{"scheme", "filtered"}})},
+          {"paper", jst({{"scheme", "paper"}})},
+          {"displacement", jst({{"variables", "displacement"}})},
+          {"multipliers", jst({{"scheme", "filtered"}, {"supports", "multipliers"}})},
+          {"multipliers_rk2", jst({{"scheme", "paper"}, {"supports", "multipliers"}})},
+          {"taylor_sph",
+           [](ParticleSet set) {
+             return with_words(assemble_taylor(std::move(set)), {{"configuration", "updated"}});
+           }},
+          {"taylor_estimates",
+           [](ParticleSet set) {
+             return with_words(assemble_taylor(std::move(set)),
+                               {{"configuration", "updated"}, {"exchange", "kernel_sums"}});
+           }},
+          {"nodal",
+           [](ParticleSet set) {
+             Assembly a = assemble(std::move(set));
+             for (auto& f : a.formulations) f = {"nodal", {}, {}};
+             return a;
+           }},
+          {"adaptle", [](ParticleSet set) {
+             Assembly a = assemble(std::move(set), sample_metal("elastic", "elastic"));
+             for (auto& f : a.formulations) f = {"adaptle", {}, {}};
+             return a;
+           }}};
 }
 
 class EveryFormulation : public ::testing::TestWithParam<Kind> {

@@ -58,11 +58,10 @@ TEST(CaseMessages, UnknownLawsAndFormulationsListWhatThereIs) {
             "case.toml:10:20: body.material.law is \"neo_hooke\" (allowed: linear_elastic, neo_hookean, mooney_rivlin, "
             "saint_venant_kirchhoff, compressible_neo_hookean, elastic, perfectly_plastic, isotropic_hardening, "
             "johnson_cook, zerilli_armstrong, johnson_holmquist, steinberg_guinan) - did you mean \"neo_hookean\"?");
-  EXPECT_EQ(
-      message_of(sample_with("jst_sph", "mpm")),
-      "case.toml:11:24: body.formulation.name is \"mpm\" (allowed: jst_sph, taylor_sph, adaptle, nodal) "
-      "- choose "
-      "one of these");
+  EXPECT_EQ(message_of(sample_with("jst_sph", "mpm")),
+            "case.toml:11:24: body.formulation.name is \"mpm\" (allowed: jst_sph, taylor_sph, adaptle, nodal) "
+            "- choose "
+            "one of these");
 }
 
 TEST(CaseMessages, SettingsOfEarlierVersionsSayWhatToDoInstead) {

@@ -61,7 +61,7 @@ std::vector<std::string> coarsening(std::filesystem::path const& file, std::vect
 Subject prepare(BenchFile const& file, BenchRowSpec const& row, std::string const& backend,
                 BenchOptions const& options) {
   std::vector<std::string> settings = row.set;
-  settings.push_back("run.machine=" + backend);
+  settings.push_back("run.instruction_set=" + backend);
   if (options.most_per_side > 0)
     for (std::string& more : coarsening(file.case_file, settings, options.most_per_side))
       settings.push_back(std::move(more));

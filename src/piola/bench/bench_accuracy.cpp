@@ -87,7 +87,8 @@ AccuracyRow measure_run(Problem const& problem, Scheme const& scheme, int across
   std::vector<std::string> const settings{
       fmt::format("body.column.shape.particles=[{}, {}, {}]", across, 6 * (across - 1) + 1, across),
       fmt::format("body.column.material.poissons_ratio={}", problem.poissons_ratio),
-      fmt::format("body.column.formulation={}", scheme.settings), fmt::format("run.machine={}", options.backend)};
+      fmt::format("body.column.formulation={}", scheme.settings),
+      fmt::format("run.instruction_set={}", options.backend)};
   ParticleSet made;
   CaseSpec const spec = read_case(options.cases / problem.folder, settings, {}, &made);
   Assembly const assembly = assemble(spec, std::move(made));

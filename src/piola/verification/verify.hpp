@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/measures/field_samples.hpp"
-#include "piola/simulation/build.hpp"
 #include "piola/observers/run_log.hpp"
+#include "piola/simulation/build.hpp"
 #include <atomic>
 #include <filesystem>
 #include <functional>

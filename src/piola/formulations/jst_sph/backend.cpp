@@ -54,7 +54,7 @@ double largest_wave_speed(BodyState& body) {
 
 /// The entry by which the host finds this instruction set.
 extern Backend const backend;
-Backend const backend{PIOLA_BACKEND_NAME,  lane_count,         &step,
+Backend const backend{PIOLA_BACKEND_NAME, lane_count,          &step,
                       &update_wave_speed, &largest_wave_speed, &update_deformation};
 
 }  // namespace piola::jst_sph::inline PIOLA_BACKEND

@@ -28,10 +28,10 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
       fields_(D_),
       boundary_(assembly, body, order_, images_.planes(), cloud(set)) {
   if (options_.filter && images_.skew())
-    throw InputError(
-        fmt::format("body '{}': an antisymmetric mirror plane turns strains round, which the volumetric filter does not "
-                    "know of - take scheme = \"paper\" or another support",
-                    body_.name));
+    throw InputError(fmt::format(
+        "body '{}': an antisymmetric mirror plane turns strains round, which the volumetric filter does not "
+        "know of - take scheme = \"paper\" or another support",
+        body_.name));
   make_pairs(set, backend);
   take_tables();
   share(backend.lanes);

@@ -16,7 +16,7 @@ constexpr double steepest_gradient = 10;
 }  // namespace
 
 void check_integration(SetUp const& from, IntegrationCorrection const& integration_correction,
-                   std::vector<SetUpCheck>& checks) {
+                       std::vector<SetUpCheck>& checks) {
   auto const& n = from.body.lattice;
   bool const wrong =
       !(integration_correction.residual <= most_missing) || !(integration_correction.steepest <= steepest_gradient);

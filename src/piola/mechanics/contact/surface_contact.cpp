@@ -14,7 +14,7 @@ constexpr double closing = 0.1;  // of a spacing in a step
 }  // namespace
 
 SurfaceContactSystem::SurfaceContactSystem(ParticleSet const& particles, std::vector<Surface> surfaces,
-                             std::vector<RigidSurface> rigids, Setting setting)
+                                           std::vector<RigidSurface> rigids, Setting setting)
     : surfaces_(std::move(surfaces)),
       rigids_(std::move(rigids)),
       setting_(std::move(setting)),
