@@ -22,7 +22,7 @@ using app::print_message;
 
 /// One rank speaks for all of them.
 int report(std::string const& message, int code) {
-  auto const trouble = leave({code, message});
+  auto const trouble = shut_down({code, message});
   if (trouble) {
     print_message("piola: {}\n", trouble->message);
     return trouble->code;
@@ -37,7 +37,7 @@ int report(std::string const& message, int code) {
 int perform(app::Action const& action) {
   try {
     int const code = action();
-    (void)leave({code, {}});
+    (void)shut_down({code, {}});
     return code;
   } catch (comm::CollectiveError const& error) {
     print_message("piola: {}\n", error.what());

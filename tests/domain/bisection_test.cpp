@@ -66,24 +66,24 @@ TEST(Bisection, KeepsTheOrderWithinAShare) {
   std::vector<Index> place(set.X.size());
   for (Index k = 0; k < order.particles; ++k)
     place[static_cast<std::size_t>(order.id[static_cast<std::size_t>(k)])] = k;
-  SlotOrder const dealt = bisected(set, set.bodies[0], order, 4);
+  SlotOrder const permuted = bisected(set, set.bodies[0], order, 4);
   for (int r = 0; r < 4; ++r) {
-    Range const own = even_range_of_rank(dealt.slots(), r, 4);
+    Range const own = even_range_of_rank(permuted.slots(), r, 4);
     for (Index k = own.first + 1; k < own.last; ++k)
-      EXPECT_LT(place[static_cast<std::size_t>(dealt.id[static_cast<std::size_t>(k - 1)])],
-                place[static_cast<std::size_t>(dealt.id[static_cast<std::size_t>(k)])]);
+      EXPECT_LT(place[static_cast<std::size_t>(permuted.id[static_cast<std::size_t>(k - 1)])],
+                place[static_cast<std::size_t>(permuted.id[static_cast<std::size_t>(k)])]);
   }
 }
 
 /// A share of a cube on four ranks is a quarter of its cross-section, along whole rows.
 TEST(Bisection, QuartersTheCrossSectionOfACube) {
   ParticleSet const set = testing::box({1, 1, 1}, {32, 32, 32});
-  SlotOrder const dealt = bisected(set, set.bodies[0], pencil_order(set, set.bodies[0]), 4);
+  SlotOrder const permuted = bisected(set, set.bodies[0], pencil_order(set, set.bodies[0]), 4);
   for (int r = 0; r < 4; ++r) {
-    Range const own = even_range_of_rank(dealt.slots(), r, 4);
+    Range const own = even_range_of_rank(permuted.slots(), r, 4);
     std::set<std::pair<bool, bool>> quarters;
     for (Index k = own.first; k < own.last; ++k) {
-      auto const& at = set.lattice_index[static_cast<std::size_t>(dealt.id[static_cast<std::size_t>(k)])];
+      auto const& at = set.lattice_index[static_cast<std::size_t>(permuted.id[static_cast<std::size_t>(k)])];
       quarters.emplace(at[1] < 16, at[2] < 16);
     }
     EXPECT_EQ(quarters.size(), 1U) << "rank " << r;

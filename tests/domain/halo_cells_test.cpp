@@ -52,7 +52,7 @@ struct Cloud {
   }
 };
 
-/// Whoever is within reach of a reader is told to its rank, and nobody who is much farther away.
+/// Whoever is within reach of a reader is exported to its rank, and nobody who is much farther away.
 TEST(HaloCells, TellThoseWithinReachAndNobodyFarAway) {
   for (int const dimension : {2, 3}) {
     Cloud const c(dimension);
@@ -72,9 +72,9 @@ TEST(HaloCells, TellThoseWithinReachAndNobodyFarAway) {
     for (auto const& [place, cell] : cells) marks.add(cell, place.second);
     marks.finish(true);
     double const reach = grid.search_radius_in_cells(), far = (1 + std::sqrt(dimension)) * Cloud::cell;
-    int told = 0, near = 0;
+    int exported = 0, near = 0;
     for (Index i = 0; i < n; ++i) {
-      std::uint8_t const kinds = marks.told(grid.keys()[i]);
+      std::uint8_t const kinds = marks.exports(grid.keys()[i]);
       std::set<int> by_flow, by_touch, possible, readers;
       for (HaloCells::Reader const& reader : marks.readers(grid.keys()[i], c.owner[at(i)]))
         if (reader.box.bounds(grid.corner(reader.cell)).square_from(grid.where(i)) <= reach * reach)
@@ -93,11 +93,11 @@ TEST(HaloCells, TellThoseWithinReachAndNobodyFarAway) {
       EXPECT_TRUE(std::ranges::includes(readers, by_flow)) << i;
       EXPECT_TRUE(std::ranges::includes(readers, by_touch)) << i;
       EXPECT_TRUE(std::ranges::includes(possible, readers)) << i;
-      told += readers.empty() ? 0 : 1;
+      exported += readers.empty() ? 0 : 1;
       near += by_flow.empty() && by_touch.empty() ? 0 : 1;
     }
     EXPECT_GT(near, 30);
-    EXPECT_LT(told, 2 * near);
+    EXPECT_LT(exported, 2 * near);
   }
 }
 
@@ -110,7 +110,7 @@ TEST(HaloCells, LetBothSidesKnowWhoMeets) {
     for (Index k = 0; k < 5; ++k)
       for (Index row : {9, 18, 27}) marks.add({row + k + 1, k < 3 ? 0 : 1}, k < 3 ? static_cast<int>(k) : 3);
     marks.finish(touching);
-    using Pairs = std::set<std::pair<int, int>>;  // who tells, who is told
+    using Pairs = std::set<std::pair<int, int>>;  // who tells, who is exported
     Pairs by_sender, by_receiver;
     for (Index k = 0; k < 5; ++k)
       for (Index row : {9, 18, 27}) {
@@ -129,10 +129,10 @@ TEST(HaloCells, TellNothingWhereNothingFlowsOrTouches) {
   marks.add({5, 0}, 0);
   marks.add({6, 1}, 1);
   marks.finish(false);
-  EXPECT_EQ(marks.told(5), 0);
+  EXPECT_EQ(marks.exports(5), 0);
   EXPECT_TRUE(marks.readers(5, 0).empty());
   marks.finish(true);
-  EXPECT_EQ(marks.told(5), HaloCells::touch);
+  EXPECT_EQ(marks.exports(5), HaloCells::touch);
   ASSERT_EQ(marks.readers(5, 0).size(), 1);
   EXPECT_EQ(marks.readers(5, 0).front().rank, 1);
   std::set<int> others;

@@ -46,7 +46,7 @@ TEST(Raster, HasDepthAndNormalOfABall) {
   for (std::size_t k = 0; k < out.depth.size(); ++k) {
     auto const [x, y] = place(k);
     double const square = radius * radius - x * x - y * y;
-    ASSERT_EQ(out.owner[k] != nobody, square >= 0) << x << " " << y;
+    ASSERT_EQ(out.owner[k] != no_owner, square >= 0) << x << " " << y;
     if (square < 0) continue;
     double const z = std::sqrt(square);
     ASSERT_NEAR(out.depth[k], z, 1e-3 * radius) << x << " " << y;
@@ -67,7 +67,7 @@ TEST(Raster, StretchesBallsByTheirDeformation) {
   auto const out = drawn(surfaces);
   int seen = 0;
   for (std::size_t k = 0; k < out.depth.size(); ++k) {
-    if (out.owner[k] == nobody) continue;
+    if (out.owner[k] == no_owner) continue;
     auto const [x, y] = place(k);
     double const u1 = y / 30, u0 = (x - 20 * u1) / 60, u2 = (out.depth[k] - 10 * u0) / 45;
     ASSERT_NEAR(u0 * u0 + u1 * u1 + u2 * u2, 1, 1e-3);
@@ -124,8 +124,8 @@ TEST(Raster, CutsTrianglesAwayBeyondAPlane) {
   }
   surfaces.triangles.push_back({{0, 1, 2}, {}, 0});
   auto const out = drawn(surfaces);
-  EXPECT_NE(out.owner[out.at(58, 20)], nobody);
-  EXPECT_EQ(out.owner[out.at(62, 20)], nobody);
+  EXPECT_NE(out.owner[out.at(58, 20)], no_owner);
+  EXPECT_EQ(out.owner[out.at(62, 20)], no_owner);
 }
 
 /// Many balls and triangles, some of them nowhere.

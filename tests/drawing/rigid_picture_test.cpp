@@ -37,7 +37,7 @@ SurfaceBuffers drawn(RigidShape const& s, View const& view = {0, 0}, int dimensi
 /// Samples that show something.
 int area(SurfaceBuffers const& image) {
   return static_cast<int>(
-      std::count_if(image.owner.begin(), image.owner.end(), [](Owner owner) { return owner != nobody; }));
+      std::count_if(image.owner.begin(), image.owner.end(), [](Owner owner) { return owner != no_owner; }));
 }
 
 double depth_at(SurfaceBuffers const& image, double x, double y) {
@@ -72,10 +72,10 @@ TEST(RigidPicture, ShowsAPlaneAsAPlateBehindItsFace) {
   // The face at y = -1.2, the plate below, as thick as 2 % of the stage: 0.02 * sqrt(12) m, 1.4 pixels.
   SurfaceBuffers const image = drawn(shape(Kind::plane, {5, -1.2, 7}, 0, {}, {0, 1, 0}), {0, 0}, 2);
   int const face = height / 2 + 24;
-  EXPECT_EQ(image.owner[image.at(width / 2, face - 1)], nobody);
-  EXPECT_NE(image.owner[image.at(width / 2, face)], nobody);
-  EXPECT_EQ(image.owner[image.at(width / 2, face + 3)], nobody);
-  EXPECT_NE(image.owner[image.at(width / 2 - 40, face)], nobody) << "opposite the bodies, wherever its point";
+  EXPECT_EQ(image.owner[image.at(width / 2, face - 1)], no_owner);
+  EXPECT_NE(image.owner[image.at(width / 2, face)], no_owner);
+  EXPECT_EQ(image.owner[image.at(width / 2, face + 3)], no_owner);
+  EXPECT_NE(image.owner[image.at(width / 2 - 40, face)], no_owner) << "opposite the bodies, wherever its point";
   // From above it is a plate in perspective, from whichever side.
   EXPECT_GT(area(drawn(shape(Kind::plane, {0, -1.2, 0}, 0, {}, {0, 1, 0}), {30, 20})), 30 * area(image) / 10);
 }

@@ -226,7 +226,7 @@ TEST(Scene, IsTheSameWhetherAllOrAPartOfThePictureIsDrawn) {
     stand.view = {turn, turn / 2};
     for (Point3& p : stand.x) p[1] += 0.2 * std::sin(3 * p[0]);
     Image const part = stand.image();
-    // A shape that nobody sees may be anywhere: then all of it is drawn.
+    // A shape that no_owner sees may be anywhere: then all of it is drawn.
     RigidShape far;
     far.kind = RigidShape::Kind::sphere;
     far.centre = {1e3, 1e3, 0};

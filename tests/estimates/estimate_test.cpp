@@ -60,9 +60,9 @@ TEST(Estimate, StepsAndDiskAreThoseOfTheRun) {
   std::string const text = test::sample_with("0.5 s", "20 ms") + output;
   Estimate const e = estimate_of(text);
   Simulation s = build(read_case_text(text, "case.toml"));
-  Listener nobody;
+  Listener no_one;
   std::atomic<int> stop{0};
-  CaseOutcome const outcome = run_case(s, {.folder = folder / "r"}, nobody, stop);
+  CaseOutcome const outcome = run_case(s, {.folder = folder / "r"}, no_one, stop);
   EXPECT_NEAR(static_cast<double>(outcome.summary.steps), static_cast<double>(e.steps),
               0.1 * static_cast<double>(e.steps));
   EXPECT_GT(outcome.summary.steps, std::ceil(0.02 / e.step) + 20);  // the gentle start
@@ -81,9 +81,9 @@ TEST(Estimate, TellsWhatLimitsTheStep) {
 /// Steps that a run takes.
 double steps_taken(std::string const& text) {
   Simulation s = build(read_case_text(text, "case.toml"));
-  Listener nobody;
+  Listener no_one;
   std::atomic<int> stop{0};
-  return static_cast<double>(run_case(s, {.folder = {}}, nobody, stop).summary.steps);
+  return static_cast<double>(run_case(s, {.folder = {}}, no_one, stop).summary.steps);
 }
 
 std::string const rod =

@@ -88,11 +88,11 @@ TEST(MaterialLibrary, HasShocksThatGoWithTheElasticConstants) {
     if (!c0) continue;
     double const rho = *material.number("density"), bulk = bulk_modulus(material);
     double const ratio = *c0 / std::sqrt(bulk / rho);
-    bool const told = material.range.find("c0 of the shock") != std::string_view::npos;
-    EXPECT_NE(std::abs(ratio - 1) < 0.06, told) << material.name << ' ' << ratio;
+    bool const reported = material.range.find("c0 of the shock") != std::string_view::npos;
+    EXPECT_NE(std::abs(ratio - 1) < 0.06, reported) << material.name << ' ' << ratio;
     with_solid(parameters_of(material), [&](auto const& solid) {
       double const elastic = std::sqrt((bulk + 4 * solid.mu / 3) / rho);
-      EXPECT_NE(std::abs(solid.p_wave_speed() / elastic - 1) < 0.05, told) << material.name;
+      EXPECT_NE(std::abs(solid.p_wave_speed() / elastic - 1) < 0.05, reported) << material.name;
     });
     ++shocks;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user is told about a bad case, word for word.
+// What a user is reported about a bad case, word for word.
 #include "support/sample_case.hpp"
 #include <gtest/gtest.h>
 
@@ -210,7 +210,7 @@ TEST(CaseMessages, SettingsOfTheCommandLineAreNamed) {
 }
 
 TEST(CaseMessages, TheLookOfPicturesHasNamesAndBounds) {
-  std::string const told = message_of(sample_case() + R"([output.pictures]
+  std::string const reported = message_of(sample_case() + R"([output.pictures]
 every = 1
 view = "top"
 azimuth = 3
@@ -224,7 +224,7 @@ map = "jet"
         "output.pictures.follow is \"colunm\" (allowed: column) - did you mean \"column\"?",
         "output.pictures.map is \"jet\" (allowed: auto, viridis, cividis, magma, grey, blue_red, blue_brown, "
         "heat_on_grey)"})
-    EXPECT_NE(told.find(part), std::string::npos) << part << "\n" << told;
+    EXPECT_NE(reported.find(part), std::string::npos) << part << "\n" << reported;
 }
 
 }  // namespace

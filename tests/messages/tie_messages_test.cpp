@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user is told about ties, word for word.
+// What a user is reported about ties, word for word.
 #include "piola/input/check_case.hpp"
 #include "piola/simulation/build.hpp"
 #include "support/sample_case.hpp"
@@ -32,26 +32,26 @@ formulation = { name = "jst_sph" }
 [[tie]]
 )toml" + tie;
 }
-std::string told(std::string const& tie) { return message_of(stack(tie)); }
+std::string reported(std::string const& tie) { return message_of(stack(tie)); }
 std::string const both = "between = [\"lower\", \"upper\"]\n";
 
 TEST(TieMessages, ATieNamesTwoBodies) {
-  EXPECT_EQ(told(both), "");
-  EXPECT_EQ(told(""),
+  EXPECT_EQ(reported(both), "");
+  EXPECT_EQ(reported(""),
             "case.toml:14:1: tie needs \"between\" (names of two bodies, or of a body and a rigid shape) - add between "
             "= [...]");
-  EXPECT_EQ(told("between = [\"lower\"]"), "case.toml:15:11: tie.between is a list of 1 (allowed: a list of 2)");
-  EXPECT_EQ(told("between = [\"lower\", \"uper\"]"),
+  EXPECT_EQ(reported("between = [\"lower\"]"), "case.toml:15:11: tie.between is a list of 1 (allowed: a list of 2)");
+  EXPECT_EQ(reported("between = [\"lower\", \"uper\"]"),
             "case.toml:15:21: tie.between[1] is \"uper\" (allowed: lower, upper) - did you mean \"upper\"?");
   EXPECT_EQ(
-      told("between = [\"lower\", \"lower\"]"),
+      reported("between = [\"lower\", \"lower\"]"),
       "case.toml:15:11: tie.between names \"lower\" twice (allowed: two bodies, or a body and a rigid shape) - name "
       "another body");
 }
 
 TEST(TieMessages, ConditionsAreNumbers) {
-  EXPECT_NE(told(both + "where = \"log(X - 1)\"").find("tie.where"), std::string::npos);
-  EXPECT_NE(told(both + "where = \"q > 1\"").find("tie.where"), std::string::npos);
+  EXPECT_NE(reported(both + "where = \"log(X - 1)\"").find("tie.where"), std::string::npos);
+  EXPECT_NE(reported(both + "where = \"q > 1\"").find("tie.where"), std::string::npos);
 }
 
 /// The stack on a rigid floor at a height.
@@ -96,27 +96,27 @@ TEST(TieMessages, BodiesWithAContactOfTheirOwnAreHeldBySurfaces) {
 }
 
 TEST(TieMessages, NamesOfColumnsAreTheirOwn) {
-  EXPECT_EQ(told("name = \"glue\"\n" + both + "[[tie]]\nname = \"glue\"\n" + both),
+  EXPECT_EQ(reported("name = \"glue\"\n" + both + "[[tie]]\nname = \"glue\"\n" + both),
             "case.toml:18:8: the name \"glue\" is taken by another tie (allowed: one tie per name) - choose another "
             "name");
 }
 
 TEST(TieMessages, LawsOfFailureAreWhole) {
-  EXPECT_EQ(told(both + "strength = \"1 MPa\""),
+  EXPECT_EQ(reported(both + "strength = \"1 MPa\""),
             "case.toml:14:1: tie needs \"toughness\" (energy that failure takes per area) - add toughness = \"100 "
             "J/m^2\"");
-  EXPECT_EQ(told(both + "toughness = 100\nshear_weight = 2"),
+  EXPECT_EQ(reported(both + "toughness = 100\nshear_weight = 2"),
             "case.toml:16:13: tie.toughness is used only by a tie with a strength - remove it\n"
             "case.toml:17:16: tie.shear_weight is used only by a tie with a strength - remove it");
-  EXPECT_EQ(told(both + "strength = \"1 MPa\"\ntoughness = \"-5 J/m^2\"\nstiffness = 0"),
+  EXPECT_EQ(reported(both + "strength = \"1 MPa\"\ntoughness = \"-5 J/m^2\"\nstiffness = 0"),
             "case.toml:17:13: tie.toughness is -5 J/m^2 (allowed: above 0)\n"
             "case.toml:18:13: tie.stiffness is 0 (allowed: above 0)");
-  EXPECT_EQ(told(both + "strength = \"1 MPa\"\ntoughness = \"100 J/m^2\"\nshear_weight = 0.5"), "");
+  EXPECT_EQ(reported(both + "strength = \"1 MPa\"\ntoughness = \"100 J/m^2\"\nshear_weight = 0.5"), "");
 }
 
 TEST(TieMessages, TheElasticBranchIsShort) {
   // K = 2 M / dp = 2.69e12 Pa/m; it softens from 7.43 um on and has failed at 10 um.
-  EXPECT_EQ(told(both + "strength = \"20 MPa\"\ntoughness = \"100 J/m^2\""),
+  EXPECT_EQ(reported(both + "strength = \"20 MPa\"\ntoughness = \"100 J/m^2\""),
             "case.toml:16:12: the tie \"tie_0\" is too soft for its strength: it opens by 7.43 um before it softens, "
             "and 10 um is where it has failed (allowed: a tenth of that) - take stiffness = 14.9 or more, a smaller "
             "strength or a smaller spacing");
@@ -131,7 +131,7 @@ TEST(TieMessages, ATieHoldsSomething) {
             "case.toml:15:11: the tie \"tie_0\" holds nothing: between \"lower\" and \"upper\" no surfaces face each "
             "other within two spacings (allowed: half a spacing) - let the bodies touch");
   EXPECT_EQ(
-      told(both + "where = \"X > 1\""),
+      reported(both + "where = \"X > 1\""),
       "case.toml:15:11: the tie \"tie_0\" holds nothing: between \"lower\" and \"upper\", and where its condition "
       "holds, no surfaces face each other within two spacings (allowed: half a spacing) - let the bodies touch, "
       "or change where");
@@ -164,7 +164,7 @@ TEST(TieMessages, WhatStaysFreeIsToldOf) {
       "case.toml:16:11: the tie \"tie_0\" holds 5 points, but 11 more that face the other body are farther from "
       "it than half a spacing, as a gap or an overlap, and stay free - let the bodies touch, or select the points "
       "by where");
-  EXPECT_EQ(told(both + "where = \"X < 0.001 && Y*0 == 0 && X > 0.0001\""), "");
+  EXPECT_EQ(reported(both + "where = \"X < 0.001 && Y*0 == 0 && X > 0.0001\""), "");
 }
 
 TEST(TieMessages, ZonesThatSpacingsDoNotResolveAreWarnedOf) {

@@ -139,14 +139,14 @@ TEST(Crack, CracksStayApart) {
   ParticleSet set = filled();
   open_crack(set, 0, {0.5, 0.5, 0}, {1.5, 0.5, 0});
   auto const why = [&](Vec3 const& from, Vec3 const& to) { return trace_crack(set, 0, from, to).problem; };
-  std::string const meets =
-      "the crack in body \"plate\" meets the crack from (0.5, 0.5) m to (1.5, 0.5) m (allowed: cracks apart from each "
+  std::string const touches =
+      "the crack in body \"plate\" touches the crack from (0.5, 0.5) m to (1.5, 0.5) m (allowed: cracks apart from each "
       "other) - move one of them";
-  EXPECT_EQ(why({1, 0, 0}, {1, 1, 0}), meets);        // across
-  EXPECT_EQ(why({1.5, 0, 0}, {1.5, 0.5, 0}), meets);  // tip to tip
-  EXPECT_EQ(why({2, 0.5, 0}, {1.5, 0.5, 0}), meets);  // one goes on where the other ends
-  EXPECT_EQ(why({0.75, 0.5, 0}, {1.25, 0.5, 0}), meets);
-  EXPECT_EQ(why({0, 0.5, 0}, {2, 0.5, 0}), meets);
+  EXPECT_EQ(why({1, 0, 0}, {1, 1, 0}), touches);        // across
+  EXPECT_EQ(why({1.5, 0, 0}, {1.5, 0.5, 0}), touches);  // tip to tip
+  EXPECT_EQ(why({2, 0.5, 0}, {1.5, 0.5, 0}), touches);  // one goes on where the other ends
+  EXPECT_EQ(why({0.75, 0.5, 0}, {1.25, 0.5, 0}), touches);
+  EXPECT_EQ(why({0, 0.5, 0}, {2, 0.5, 0}), touches);
   EXPECT_EQ(why({0.25, 0.75, 0}, {1.75, 0.75, 0}), "");
   EXPECT_EQ(why({1.75, 0.25, 0}, {1.75, 0.75, 0}), "");
 }

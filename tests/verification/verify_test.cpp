@@ -210,7 +210,7 @@ tolerance = 0
 source = "both are the same"
 evidence = "code"
 )");
-  std::vector<VerifyProgress> told;
+  std::vector<VerifyProgress> reported;
   std::atomic<int> const none{0};
   auto const cases = verify(
       {.cases = folder / "cases",
@@ -219,21 +219,21 @@ evidence = "code"
        .out = folder / "out",
        .weigh = [](std::filesystem::path const&, std::vector<std::string> const&) { return 2.0; }},
       [](std::filesystem::path const&, std::vector<std::string> const&) { return testing::make_springs(); },
-      [&](VerifyProgress const& at) { told.push_back(at); }, none);
+      [&](VerifyProgress const& at) { reported.push_back(at); }, none);
   ASSERT_EQ(cases.size(), 1U);
   ASSERT_EQ(cases[0].runs.size(), 2U);
   EXPECT_EQ(cases[0].runs[0].title, "Springs");
   EXPECT_GT(cases[0].runs[0].wall_seconds, 0);
   EXPECT_EQ(cases[0].rows.at(0).verdict, "passes");
-  ASSERT_GE(told.size(), 2U);
-  EXPECT_EQ(told.front().variant, "coarse");
-  EXPECT_EQ(told.front().number, 1U);
-  EXPECT_EQ(told.front().count, 2U);
-  EXPECT_FALSE(told.front().seconds_left);
-  EXPECT_EQ(told.back().variant, "fine");
-  EXPECT_EQ(told.back().number, 2U);
-  ASSERT_TRUE(told.back().seconds_left);
-  EXPECT_NEAR(*told.back().seconds_left, 0, 1e-9);  // the last word of the last run
+  ASSERT_GE(reported.size(), 2U);
+  EXPECT_EQ(reported.front().variant, "coarse");
+  EXPECT_EQ(reported.front().number, 1U);
+  EXPECT_EQ(reported.front().count, 2U);
+  EXPECT_FALSE(reported.front().seconds_left);
+  EXPECT_EQ(reported.back().variant, "fine");
+  EXPECT_EQ(reported.back().number, 2U);
+  ASSERT_TRUE(reported.back().seconds_left);
+  EXPECT_NEAR(*reported.back().seconds_left, 0, 1e-9);  // the last word of the last run
 }
 
 TEST(ReadChecks, ReadsComparisonsAndExpectations) {

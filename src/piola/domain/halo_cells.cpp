@@ -36,7 +36,7 @@ QuantisedBounds::Bounds QuantisedBounds::bounds(std::array<double, 3> const& cor
 template <class F>
 void HaloCells::each_occupied(F const& f) const {
   exec_host::parallel_for(static_cast<Index>(body_.size()), [&](Index cell) {
-    if (body_[static_cast<std::size_t>(cell)] != nobody) f(cell);
+    if (body_[static_cast<std::size_t>(cell)] != no_body) f(cell);
   });
 }
 
@@ -45,8 +45,8 @@ void HaloCells::start(std::array<Index, 3> const& shape, int dimension) {
   dimension_ = dimension;
   std::size_t cells = 1;
   for (Index const n : shape) cells *= static_cast<std::size_t>(n);
-  body_.assign(cells, nobody);
-  for (auto* marks : {&flows_, &reads_, &told_}) marks->assign(cells, 0);
+  body_.assign(cells, no_body);
+  for (auto* marks : {&flows_, &reads_, &exports_}) marks->assign(cells, 0);
   first_.clear();
   said_.clear();
 }
@@ -63,23 +63,23 @@ void HaloCells::finish(bool touching) {
   each_occupied([&](Index cell) {
     Index const mine = body_[static_cast<std::size_t>(cell)];
     bool const is_eulerian = any_around(cell, [&](std::size_t other) { return flows_[other] != 0; });
-    bool const meets = touching && any_around(cell, [&](std::size_t other) {
-                         return body_[other] == several || (body_[other] != nobody && body_[other] != mine);
+    bool const overlaps = touching && any_around(cell, [&](std::size_t other) {
+                         return body_[other] == several || (body_[other] != no_body && body_[other] != mine);
                        });
-    reads_[static_cast<std::size_t>(cell)] = static_cast<std::uint8_t>((is_eulerian ? flow : 0) | (meets ? touch : 0));
+    reads_[static_cast<std::size_t>(cell)] = static_cast<std::uint8_t>((is_eulerian ? flow : 0) | (overlaps ? touch : 0));
   });
   // Contact is symmetric: a cell that reads is also read. Next to Eulerian particles it is not, so exports are derived
   // separately.
   each_occupied([&](Index cell) {
     bool const is_eulerian = any_around(cell, [&](std::size_t other) { return (reads_[other] & flow) != 0; });
-    int const told = (reads_[static_cast<std::size_t>(cell)] & touch) | (is_eulerian ? flow : 0);
-    told_[static_cast<std::size_t>(cell)] = static_cast<std::uint8_t>(told);
+    int const exported = (reads_[static_cast<std::size_t>(cell)] & touch) | (is_eulerian ? flow : 0);
+    exports_[static_cast<std::size_t>(cell)] = static_cast<std::uint8_t>(exported);
   });
 }
 
 std::vector<HaloCells::Reader> HaloCells::readers(Index cell, int own) const {
   std::vector<Reader> all;
-  if (told(cell) == 0) return all;
+  if (exports(cell) == 0) return all;
   each_around(cell, [&](std::size_t other) {
     if (reads_[other] == 0) return;
     for (Index k = first_[other]; k != none; k = said_[static_cast<std::size_t>(k)].next) {

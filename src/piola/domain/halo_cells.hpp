@@ -69,7 +69,7 @@ class HaloCells {
   void add(Index cell, Index body, bool is_eulerian) {
     auto const c = static_cast<std::size_t>(cell);
     Index const before = body_[c];
-    if (before != body) body_[c] = before == nobody ? body : several;
+    if (before != body) body_[c] = before == no_body ? body : several;
     if (is_eulerian) flows_[c] = 1;
   }
   /// Adds the summary of a cell of one rank. Precondition: before finish().
@@ -81,7 +81,7 @@ class HaloCells {
   /// are.
   std::uint8_t reads(Index cell) const { return reads_[static_cast<std::size_t>(cell)]; }
   /// Kinds for which particles of a cell are read by particles in it or around it.
-  std::uint8_t told(Index cell) const { return told_[static_cast<std::size_t>(cell)]; }
+  std::uint8_t exports(Index cell) const { return exports_[static_cast<std::size_t>(cell)]; }
   /// Cells of other ranks than `own` whose particles may read particles of `cell`, sorted by rank.
   std::vector<Reader> readers(Index cell, int own) const;
   /// Calls f(rank) for each rank other than `own` with exported particles in this cell or around it; does nothing if
@@ -90,7 +90,7 @@ class HaloCells {
   void each_exporter(Index cell, int own, F const& f) const {
     if (reads(cell) == 0) return;
     each_around(cell, [&](std::size_t other) {
-      if (told_[other] == 0) return;
+      if (exports_[other] == 0) return;
       for (Index k = first_[other]; k != none; k = said_[static_cast<std::size_t>(k)].next)
         if (int const rank = said_[static_cast<std::size_t>(k)].rank; rank != own) f(rank);
     });
@@ -98,7 +98,7 @@ class HaloCells {
   std::size_t bytes() const;
 
  private:
-  static constexpr Index nobody = -1, none = -1;
+  static constexpr Index no_body = -1, none = -1;
   struct OccupancyRecord {
     Cell cell;
     int rank;
@@ -130,7 +130,7 @@ class HaloCells {
   std::array<Index, 3> shape_{};
   int dimension_ = 3;
   std::vector<Index> body_, first_;  // per cell; first_: index into said_
-  std::vector<std::uint8_t> flows_, reads_, told_;
+  std::vector<std::uint8_t> flows_, reads_, exports_;
   std::vector<OccupancyRecord> said_;
 };
 

@@ -212,7 +212,7 @@ SurfaceBuffers::SurfaceBuffers(int columns, int rows) : width(columns), height(r
   depth.assign(samples, far_away);
   normal.resize(samples);
   value.resize(samples);
-  owner.assign(samples, nobody);
+  owner.assign(samples, no_owner);
 }
 
 void set_shape(Ellipsoid& ellipsoid, std::array<Point3, 3> const& S) {

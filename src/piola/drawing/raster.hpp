@@ -17,7 +17,7 @@ namespace piola {
 
 /// Number of a surface in the buffers, which determines its colour.
 using Owner = std::uint16_t;
-inline constexpr Owner nobody = std::numeric_limits<Owner>::max();
+inline constexpr Owner no_owner = std::numeric_limits<Owner>::max();
 
 /// The nearest surface at each sample, row by row from the top.
 struct SurfaceBuffers {

@@ -53,9 +53,9 @@ std::string places_text(std::filesystem::path const& results) {
 }  // namespace
 
 void add_energies(Failure& failure, HistoryTable const& history) {
-  bool const told = std::any_of(failure.values.begin(), failure.values.end(),
+  bool const named = std::any_of(failure.values.begin(), failure.values.end(),
                                 [](auto const& value) { return value.first.starts_with("total energy"); });
-  if (told || history.rows.empty() || !history.find("total_energy")) return;
+  if (named || history.rows.empty() || !history.find("total_energy")) return;
   auto const energy = history.values("total_energy"), work = history.values("external_work");
   failure.values.emplace_back("energy at the start [J]", energy.front());
   failure.values.emplace_back("total energy [J]", energy.back());

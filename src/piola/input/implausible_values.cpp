@@ -98,7 +98,7 @@ void check_materials(BodySpec const& spec, BodyProperties const& body, Problems&
 }
 
 void check_fineness(BodySpec const& spec, BodyProperties const& body, Problems& slips) {
-  PlausibleRange const &across = plausible_range("particles_across"), &alike = plausible_range("spacing_ratio");
+  PlausibleRange const &across = plausible_range("particles_across"), &ratios = plausible_range("spacing_ratio");
   double widest = 0;
   Place const place = place_of(spec.places, "shape");
   for (std::size_t d = 0; d < static_cast<std::size_t>(spec.shape.dimension); ++d) {
@@ -109,9 +109,9 @@ void check_fineness(BodySpec const& spec, BodyProperties const& body, Problems& 
                          std::string(across.below));
   }
   double const ratio = widest / smallest_spacing(body, spec.shape.dimension);
-  if (ratio > alike.high)
+  if (ratio > ratios.high)
     slips.add(place, body_words(body) + "the spacings differ by a factor of " + number_text(ratio, 3) +
-                         std::string(alike.above));
+                         std::string(ratios.above));
 }
 
 void check_extent(BodySpec const& spec, BodyProperties const& body, Problems& slips) {

@@ -214,10 +214,10 @@ bool is_for_observers(Command const& order) {
 
 /// Counterpart on this rank of saving with a writer of rank 0.
 void save_with_first(Formulation const& formulation, StateWriter::Rows rows) {
-  NullStateWriter nobody;
+  NullStateWriter ignored;
   StateSize size;
   LocalRowsWriter part;
-  StateWriter* const writers[]{&nobody, &part, &size};
+  StateWriter* const writers[]{&ignored, &part, &size};
   StateWriter& writer = *writers[static_cast<std::size_t>(rows)];
   formulation.save(writer);
   writer.end_rows();
@@ -327,7 +327,7 @@ std::vector<RankTraffic> traffic_on_ranks() {
   return each;
 }
 
-std::optional<comm::RankError> leave(comm::RankError const& own) {
+std::optional<comm::RankError> shut_down(comm::RankError const& own) {
   if (!comm::is_parallel() || phase == Phase::over || (own.code == 0 && phase != Phase::running)) return own;
   if (phase == Phase::reading) return comm::agree(own);
   if (phase == Phase::building) return comm::agree_within(shutdown_timeout, own);

@@ -41,6 +41,6 @@ std::vector<RankTraffic> traffic_on_ranks();
 
 /// Shuts down a rank with an exit code and a message: informs the other ranks and returns the error with which the
 /// whole run ends. Empty if they do not respond in time, because they wait for this rank: then call ranks::abort_all.
-std::optional<comm::RankError> leave(comm::RankError const& own);
+std::optional<comm::RankError> shut_down(comm::RankError const& own);
 
 }  // namespace piola

@@ -40,8 +40,8 @@ struct Blocks {
   }
   System::Setting setting(std::size_t rigids, FrictionLaw const& friction = {}) const {
     std::size_t const n = surfaces.size();
-    System::Setting s(n, std::vector<System::Touch>(n + rigids, {true, 0.5, friction}));
-    for (std::size_t b = 0; b < n; ++b) s[b][b].meets = false;
+    System::Setting s(n, std::vector<System::PairSetting>(n + rigids, {true, 0.5, friction}));
+    for (std::size_t b = 0; b < n; ++b) s[b][b].is_active = false;
     return s;
   }
   System system(std::vector<RigidSurface> rigids = {}, FrictionLaw const& friction = {}) const {

@@ -44,7 +44,7 @@ TEST_P(OwnContact, ABodyAtRestDoesNotPushItself) {
   EXPECT_EQ(system.totals().energy, 0);
   Blocks const blocks(GetParam(), -1);
   System::Setting setting = blocks.setting(0);
-  for (std::size_t b = 0; b < setting.size(); ++b) setting[b][b].meets = true;
+  for (std::size_t b = 0; b < setting.size(); ++b) setting[b][b].is_active = true;
   System corners(blocks.set, blocks.surfaces, {}, setting);
   auto x = places(corners, blocks.set);
   // Neither its edges nor its faces do when it is squeezed to half its height.

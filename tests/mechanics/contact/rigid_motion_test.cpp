@@ -38,11 +38,11 @@ struct Lying {
     free.angular_velocity = {Expression(D == 3 ? "0.3" : "0"), Expression(D == 3 ? "0.1" : "0"), Expression("0.5")};
     shapes.push_back(free);
   }
-  System system(double friction, bool meets = true) const {
-    return {set, surfaces, {surface_of(shapes[0], dimension)}, touching(friction, meets)};
+  System system(double friction, bool is_active = true) const {
+    return {set, surfaces, {surface_of(shapes[0], dimension)}, touching(friction, is_active)};
   }
-  static System::Setting touching(double friction, bool meets = true) {
-    return {{System::Touch{}, System::Touch{meets, 0.5, {.kinetic = friction}}}};
+  static System::Setting touching(double friction, bool is_active = true) {
+    return {{System::PairSetting{}, System::PairSetting{is_active, 0.5, {.kinetic = friction}}}};
   }
   std::vector<Vec<3>> places(System const& system) const {
     std::vector<Vec<3>> x;

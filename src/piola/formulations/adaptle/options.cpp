@@ -248,9 +248,9 @@ void check_one_kernel(Assembly const& assembly, std::vector<BodyOptions> const& 
     return bodies[b].smoothing_length * std::max({s[0], s[1], assembly.particles.dimension == 3 ? s[2] : 0.0});
   };
   for (std::size_t b = 1; b < bodies.size(); ++b) {
-    bool const alike = std::abs(width(b) - width(0)) < 1e-6 * width(0) && bodies[b].alpha == bodies[0].alpha &&
+    bool const is_same = std::abs(width(b) - width(0)) < 1e-6 * width(0) && bodies[b].alpha == bodies[0].alpha &&
                        bodies[b].beta == bodies[0].beta;
-    if (alike) continue;
+    if (is_same) continue;
     problems.add({},
                  fmt::format("contact.law = \"none\" makes one of the bodies \"{}\" and \"{}\", but their smoothing "
                              "length in m, alpha or beta differ (allowed: equal ones) - make them equal or choose "

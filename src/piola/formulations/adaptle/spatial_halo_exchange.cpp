@@ -46,7 +46,7 @@ std::vector<double> SpatialHaloExchange::coordinates(System const& s, std::size_
 void SpatialHaloExchange::forget() {
   for (auto* sides : {&sends_, &receives_})
     for (Side& side : *sides) {
-      side.meets = false;
+      side.overlaps = false;
       side.slots.clear();
       for (auto& particles : side.particles) particles.clear();
     }
@@ -94,32 +94,32 @@ void SpatialHaloExchange::select_sends(CellList const& grid, HaloCells const& ma
   for (HaloCells::Cell const& mine : mine_) {
     for (HaloCells::Reader const& reader : marks.readers(mine.cell, own)) {
       readers_.push_back({reader.rank, reader.box.bounds(grid.corner(reader.cell))});
-      sends_[at(reader.rank)].meets = true;
+      sends_[at(reader.rank)].overlaps = true;
     }
     first_reader_.push_back(readers_.size());
-    marks.each_exporter(mine.cell, own, [&](int rank) { receives_[at(rank)].meets = true; });
+    marks.each_exporter(mine.cell, own, [&](int rank) { receives_[at(rank)].overlaps = true; });
   }
   double const reach = grid.search_radius_in_cells();
   for (Index const slot : own_) {
     auto const number = at(number_of_[at(grid.keys()[slot])]);
     if (first_reader_[number] == first_reader_[number + 1]) continue;
     std::array<double, 3> const place = grid.where(slot);
-    int told = own;
+    int last_sent = own;
     for (std::size_t k = first_reader_[number]; k < first_reader_[number + 1]; ++k) {
       // The comparison is false for NaN, so particles with NaN positions are sent.
-      if (readers_[k].rank == told || readers_[k].where.square_from(place) > reach * reach) continue;
-      told = readers_[k].rank;
-      sends_[at(told)].slots.push_back(slot);
+      if (readers_[k].rank == last_sent || readers_[k].where.square_from(place) > reach * reach) continue;
+      last_sent = readers_[k].rank;
+      sends_[at(last_sent)].slots.push_back(slot);
     }
   }
 }
 
 /// Exchanges the number of particles to send, between ranks with adjacent cells.
 void SpatialHaloExchange::send_counts() {
-  for (Side& side : sends_) side.values.assign(side.meets ? 1 : 0, static_cast<double>(side.slots.size()));
-  for (Side& side : receives_) side.values.assign(side.meets ? 1 : 0, 0);
+  for (Side& side : sends_) side.values.assign(side.overlaps ? 1 : 0, static_cast<double>(side.slots.size()));
+  for (Side& side : receives_) side.values.assign(side.overlaps ? 1 : 0, 0);
   send();
-  for (Side& side : receives_) side.slots.resize(side.meets ? static_cast<std::size_t>(side.values.front()) : 0);
+  for (Side& side : receives_) side.slots.resize(side.overlaps ? static_cast<std::size_t>(side.values.front()) : 0);
 }
 
 /// The values of all sides, which have their sizes.
@@ -172,9 +172,9 @@ void SpatialHaloExchange::meet(System const& s, CellList const& grid, HaloCells&
 
 void SpatialHaloExchange::Side::choose(CellList const& grid, HaloCells const& marks) {
   for (Index const slot : slots) {
-    std::uint8_t const told = marks.told(grid.keys()[slot]);
-    if ((told & HaloCells::flow) != 0) particles[flow].push_back(grid.sorted()[slot]);
-    if ((told & HaloCells::touch) != 0) particles[touch].push_back(slot);
+    std::uint8_t const exported = marks.exports(grid.keys()[slot]);
+    if ((exported & HaloCells::flow) != 0) particles[flow].push_back(grid.sorted()[slot]);
+    if ((exported & HaloCells::touch) != 0) particles[touch].push_back(slot);
   }
 }
 
@@ -189,32 +189,32 @@ std::size_t SpatialHaloExchange::width_of(std::vector<FieldPart> const& parts) {
   return width;
 }
 
-std::size_t SpatialHaloExchange::Side::numbers(Told const& told) const {
+std::size_t SpatialHaloExchange::Side::numbers(FieldGroups const& fields) const {
   std::size_t count = 0;
-  for (std::size_t kind = 0; kind < told.size(); ++kind) count += particles[kind].size() * width_of(told[kind]);
+  for (std::size_t kind = 0; kind < fields.size(); ++kind) count += particles[kind].size() * width_of(fields[kind]);
   return count;
 }
 
 template <class F>
-void SpatialHaloExchange::Side::each(Told const& told, F const& f) {
+void SpatialHaloExchange::Side::each(FieldGroups const& fields, F const& f) {
   double* first = values.data();
-  for (std::size_t kind = 0; kind < told.size(); ++kind) {
-    std::size_t const width = width_of(told[kind]);
+  for (std::size_t kind = 0; kind < fields.size(); ++kind) {
+    std::size_t const width = width_of(fields[kind]);
     exec_host::parallel_for(static_cast<Index>(particles[kind].size()), [&](Index k) {
       double* value = first + at(k) * width;
-      for (FieldPart const& part : told[kind])
+      for (FieldPart const& part : fields[kind])
         for (int c = 0; c < part.count; ++c) f(*value++, value_at(part.field, particles[kind][at(k)], part.first + c));
     });
     first += particles[kind].size() * width;
   }
 }
 
-void SpatialHaloExchange::exchange(Told const& told) {
+void SpatialHaloExchange::exchange(FieldGroups const& fields) {
   for (auto* sides : {&sends_, &receives_})
-    for (Side& side : *sides) side.values.resize(side.numbers(told));
-  for (Side& side : sends_) side.each(told, [](double& value, double& here) { value = here; });
+    for (Side& side : *sides) side.values.resize(side.numbers(fields));
+  for (Side& side : sends_) side.each(fields, [](double& value, double& here) { value = here; });
   send();
-  for (Side& side : receives_) side.each(told, [](double& value, double& here) { here = value; });
+  for (Side& side : receives_) side.each(fields, [](double& value, double& here) { here = value; });
 }
 
 }  // namespace piola::adaptle

@@ -39,8 +39,8 @@ class SpatialHaloExchange {
     int first, count;
   };
   /// Fields per kind of reading; those of `flow` by sorted number, those of `touch` by slot.
-  using Told = std::array<std::vector<FieldPart>, 2>;
-  void exchange(Told const& told);
+  using FieldGroups = std::array<std::vector<FieldPart>, 2>;
+  void exchange(FieldGroups const& fields);
   /// Calls f(slot) for the spatial ghosts that this rank reads for contact.
   template <class F>
   void each_touched(F const& f) const {
@@ -52,15 +52,15 @@ class SpatialHaloExchange {
   static constexpr std::size_t flow = 0, touch = 1;
   /// Communication with one other rank.
   struct Side {
-    bool meets = false;                           ///< cells of both ranks are adjacent
+    bool overlaps = false;                           ///< cells of both ranks are adjacent
     std::vector<Index> slots;                     ///< in the order of sending
     std::array<std::vector<Index>, 2> particles;  ///< indices of these by kind of reading
     std::vector<double> values;                   ///< message buffer, kept between steps
     void choose(CellList const& grid, HaloCells const& marks);
-    std::size_t numbers(Told const& told) const;
+    std::size_t numbers(FieldGroups const& fields) const;
     /// Calls f(value in the message, value in its field).
     template <class F>
-    void each(Told const& told, F const& f);
+    void each(FieldGroups const& fields, F const& f);
   };
   /// A remote rank that reads particles of a cell, and the bounds of its reading particles [cell edges].
   struct Reader {

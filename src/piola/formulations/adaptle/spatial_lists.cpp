@@ -56,7 +56,7 @@ void SpatialLists::choose_targets(System const& s) {
       continue;
     }
     group_[at(k)] = s.body_of[slot];
-    near_[at(slot)] = marks_.told(cell) & HaloCells::flow;
+    near_[at(slot)] = marks_.exports(cell) & HaloCells::flow;
     if (!is_local(s, slot)) continue;
     if ((marks_.reads(cell) & HaloCells::flow) != 0) spatial_.target.push_back(k);
     if ((marks_.reads(cell) & HaloCells::touch) != 0) contact_.target.push_back(k);

@@ -64,23 +64,23 @@ StepHaloExchanges::ReferenceHalo StepHaloExchanges::reference_halo(System const&
   BodyConstants const& b = s.body[body];
   std::vector<Index> read;
   lists.each_neighbour_of(s.part[body], [&](Index i) { read.push_back(i - b.first); });
-  ReferenceHalo told{
+  ReferenceHalo halo{
       HaloPlan(cuts_[static_cast<std::size_t>(body)].from_zero(), std::move(read)), material_records(s, body), {}, {}};
   auto const [motion, stress, values] = with_material(s.dimension, [&](auto r) {
     using R = decltype(r);
     return std::array{R::X, R::A, R::values(s.settings.published)};
   });
-  told.stress = told.motion;
-  told.stress.data += stress * told.motion.component_stride;
-  for (Index const i : told.plan.received())
-    for (int c = 0; c < s.dimension; ++c) value_at(told.motion, i, motion + c) = value_at(s.field.X, i + b.first, c);
-  told.plan.add(told.motion, 0, motion);
-  told.plan.add(told.stress, 0, values - stress);
+  halo.stress = halo.motion;
+  halo.stress.data += stress * halo.motion.component_stride;
+  for (Index const i : halo.plan.received())
+    for (int c = 0; c < s.dimension; ++c) value_at(halo.motion, i, motion + c) = value_at(s.field.X, i + b.first, c);
+  halo.plan.add(halo.motion, 0, motion);
+  halo.plan.add(halo.stress, 0, values - stress);
   if (b.hourglass > 0 || b.hourglass_stiffness > 0) {
-    told.hourglass = {of_body(s.field.F, b), of_body(s.field.F_rate, b)};
-    for (FieldRef const& field : told.hourglass) told.plan.add(field, 0, 9);
+    halo.hourglass = {of_body(s.field.F, b), of_body(s.field.F_rate, b)};
+    for (FieldRef const& field : halo.hourglass) halo.plan.add(field, 0, 9);
   }
-  return told;
+  return halo;
 }
 
 /// Failures travel with the bounds of all particles.
@@ -100,8 +100,8 @@ SpatialLists::RemoteParticles StepHaloExchanges::before_lists(System const& s) {
 }
 
 void StepHaloExchanges::after_prediction(System const& s) {
-  for (ReferenceHalo& told : to_neighbours_)
-    if (s.material.used) told.plan.exchange(told.motion);
+  for (ReferenceHalo& halo : to_neighbours_)
+    if (s.material.used) halo.plan.exchange(halo.motion);
 }
 
 /// Contacts read positions where steps have left them.
@@ -112,11 +112,11 @@ void StepHaloExchanges::after_lists(System const& s) {
 }
 
 void StepHaloExchanges::after_half_state(System const& s) {
-  for (ReferenceHalo& told : to_neighbours_) {
+  for (ReferenceHalo& halo : to_neighbours_) {
     if (!s.material.used) break;
-    std::vector<FieldRef> fields{told.stress};
-    if (s.eulerians > 0) fields.insert(fields.end(), told.hourglass.begin(), told.hourglass.end());
-    told.plan.exchange(fields);
+    std::vector<FieldRef> fields{halo.stress};
+    if (s.eulerians > 0) fields.insert(fields.end(), halo.hourglass.begin(), halo.hourglass.end());
+    halo.plan.exchange(fields);
   }
   auto const [corrected, all] = parts_of(s);
   near_.exchange({{{{spatial_records(s), 0, s.settings.corrected ? corrected : all}},

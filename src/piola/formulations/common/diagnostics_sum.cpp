@@ -44,7 +44,7 @@ void DiagnosticsSum::add_oscillation(ParticleSet const& set, Body const& body, s
     Differences d{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       auto const [a, b] = lines.neighbours(place(k), axis);
-      if (a == LatticeLines::nobody) continue;
+      if (a == LatticeLines::no_slot) continue;
       auto const value = [&](std::int64_t n) { return p[static_cast<std::size_t>(n)]; };
       d.value[axis] = (value(b) - 2 * value(k) + value(a)) / 4;
       d.exists[axis] = true;

@@ -64,11 +64,11 @@ std::vector<double> with_mode(Body const& body, std::vector<double> numbers, std
 template <class Body>
 std::vector<double> without_mode(Body const& body, std::size_t numbers, std::span<double const> of_first,
                                  std::vector<double>& mode) {
-  std::vector<double> told(of_first.begin(), of_first.begin() + static_cast<std::ptrdiff_t>(numbers));
-  if (body.shared()) comm::broadcast_bytes(told.data(), numbers * sizeof(double));
+  std::vector<double> received(of_first.begin(), of_first.begin() + static_cast<std::ptrdiff_t>(numbers));
+  if (body.shared()) comm::broadcast_bytes(received.data(), numbers * sizeof(double));
   from_id_order(body, body.state().dimension, of_first.subspan(numbers),
                 [&](Index i, int c, double value) { mode[mode_place(body, i, c)] = value; });
-  return told;
+  return received;
 }
 
 }  // namespace piola

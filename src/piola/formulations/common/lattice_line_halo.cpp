@@ -25,13 +25,13 @@ LatticeLineHalo::LatticeLineHalo(ParticleSet const& set, Body const& body, Slots
   for (Index i = 0; i < slots.particles; ++i) {
     if (!lines_.holds(at(i))) continue;
     Index& there = lines_[at(i)];
-    if (there == LatticeLines::nobody || slots.of(there) < slots.of(i)) there = i;
+    if (there == LatticeLines::no_slot || slots.of(there) < slots.of(i)) there = i;
   }
   std::vector<Index> read;
   for (Index i = own.first; i < own.last; ++i)
     for (std::size_t axis = 0; axis < 3; ++axis)
       for (Index const slot : lines_.neighbours(at(i), axis))
-        if (slot != LatticeLines::nobody) read.push_back(slot);
+        if (slot != LatticeLines::no_slot) read.push_back(slot);
   pressure_.allocate(cut.whole().last, 0);
   halo_ = std::make_unique<HaloPlan>(cut, std::move(read));
   halo_->add(pressure_.ref(), 0, 1);
@@ -42,7 +42,7 @@ void LatticeLineHalo::add_oscillation(DiagnosticsSum& o) {
   for (Index i = own_.first; i < own_.last; ++i)
     for (std::size_t axis = 0; axis < 3; ++axis) {
       auto const [a, b] = lines_.neighbours(at(i), axis);
-      if (a != LatticeLines::nobody)
+      if (a != LatticeLines::no_slot)
         o.add_second_difference((pressure_.at(b) - 2 * pressure_.at(i) + pressure_.at(a)) / 4);
     }
 }

@@ -12,14 +12,14 @@ namespace piola {
 class LatticeLines {
  public:
   using At = std::array<int, 3>;
-  static constexpr Index nobody = -1;
+  static constexpr Index no_slot = -1;
 
   LatticeLines() = default;
   /// Creates empty positions [first, first + size).
   LatticeLines(At const& first, At const& size) : first_(first), size_(size) {
     std::size_t places = 1;
     for (int const n : size) places *= static_cast<std::size_t>(n);
-    who_.assign(places, nobody);
+    slot_at_.assign(places, no_slot);
   }
   bool holds(At const& at) const {
     for (std::size_t c = 0; c < 3; ++c)
@@ -29,19 +29,19 @@ class LatticeLines {
   /// The slot at a position. Precondition: holds(at).
   Index& operator[](At const& at) {
     PIOLA_EXPECTS(holds(at));
-    return who_[place(at)];
+    return slot_at_[place(at)];
   }
-  /// Slots before and after a position along an axis; `nobody` for both if either is missing.
+  /// Slots before and after a position along an axis; `no_slot` for both if either is missing.
   std::array<Index, 2> neighbours(At const& at, std::size_t axis) const {
     At before = at, after = at;
     --before[axis];
     ++after[axis];
-    if (!holds(before) || !holds(after)) return {nobody, nobody};
-    Index const a = who_[place(before)], b = who_[place(after)];
-    if (a == nobody || b == nobody) return {nobody, nobody};
+    if (!holds(before) || !holds(after)) return {no_slot, no_slot};
+    Index const a = slot_at_[place(before)], b = slot_at_[place(after)];
+    if (a == no_slot || b == no_slot) return {no_slot, no_slot};
     return {a, b};
   }
-  std::size_t bytes() const { return who_.size() * sizeof(Index); }
+  std::size_t bytes() const { return slot_at_.size() * sizeof(Index); }
 
  private:
   std::size_t place(At const& at) const {
@@ -52,7 +52,7 @@ class LatticeLines {
   }
 
   At first_{}, size_{};
-  std::vector<Index> who_;
+  std::vector<Index> slot_at_;
 };
 
 }  // namespace piola

@@ -268,7 +268,7 @@ void JstBody::fill_adjoint(int first) {
       at[(first + c) * second_.component] = corrections.alpha[corrections.at(i)][static_cast<std::size_t>(c)];
     at[(first + D_) * second_.component] = corrections.beta[corrections.at(i)];
   });
-  if (shared()) tell_once(state_.second, first, D_ + 1);
+  if (shared()) update_ghosts_once(state_.second, first, D_ + 1);
 }
 
 /// Finds the distinct groups of lanes: the same neighbours and the same volumes give the same reference data.
@@ -342,7 +342,7 @@ void JstBody::fill_evolved_geometry() {
 }
 
 /// Sends constant data that far ghosts also need.
-void JstBody::tell_once(FieldRef const& field, int first, int count) const {
+void JstBody::update_ghosts_once(FieldRef const& field, int first, int count) const {
   HaloPlan once = *halo_;
   FieldRef part = field;
   part.data += first * field.component_stride;
@@ -354,7 +354,7 @@ void JstBody::fill_filter() {
   std::vector<double> volumes(static_cast<std::size_t>(order_.slots()));
   for (Index i = 0; i < order_.particles; ++i) volumes[static_cast<std::size_t>(i)] = mirrored_volume(i);
   ReferencePairs::FilterShare const share{
-      own(), [&](std::vector<double>& values) { tell_once({.data = values.data()}, 0, 1); }, comm::allreduce_max};
+      own(), [&](std::vector<double>& values) { update_ghosts_once({.data = values.data()}, 0, 1); }, comm::allreduce_max};
   auto const filter = pairs_->make_filter(volumes, shared() ? &share : nullptr);
   for (Index i = own().first; i < own().last; ++i) {
     fields_.filter_scale.at(i) = filter.scale[static_cast<std::size_t>(i)];

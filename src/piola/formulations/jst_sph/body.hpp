@@ -84,17 +84,17 @@ class JstBody {
   /// Assigns this rank its range of slots. Later set-up covers these slots only. Collective.
   void share(int lanes);
   void mark_halo();
-  void tell_once(FieldRef const& field, int first, int count) const;
+  void update_ghosts_once(FieldRef const& field, int first, int count) const;
   /// Calls f(slot) for local particles and ghosts.
   template <class Visit>
   void each_seen(Visit const& f) const;
   /// Field of a ghost exchange: values [first, first + count), for near ghosts or also for far ones.
-  struct Told {
+  struct HaloField {
     FieldRef field;
     int first, count;
     bool far;
   };
-  std::vector<std::vector<Told>> told() const;
+  std::vector<std::vector<HaloField>> halo_fields() const;
   std::vector<Index> slots_read(int lanes, bool far) const;
   void make_pairs(ParticleSet const& set, Backend const& backend);
   void take_tables();

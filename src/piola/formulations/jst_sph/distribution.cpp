@@ -54,28 +54,28 @@ std::vector<Index> JstBody::slots_read(int lanes, bool far) const {
 
 /// Ghost data of the sweeps, field by field in the layout of place_gathered(), by message; alpha and beta are constant.
 /// Gradients read near neighbours alone; Laplacians and the filter also far ones.
-std::vector<std::vector<JstBody::Told>> JstBody::told() const {
+std::vector<std::vector<JstBody::HaloField>> JstBody::halo_fields() const {
   auto const& s = state_;
   bool const smoothed_J = options_.smoothed_volume();
   int const smoothed = stabilised() ? D_ + (smoothed_J ? 1 : 0) : 0;
   int const before_A = options_.biharmonic == Biharmonic::adjoint ? smoothed + D_ + 1 : smoothed;
   int const beside_u = gathers_position() ? D_ : smoothed_J ? 1 : 0;
-  std::vector<std::vector<Told>> messages{
+  std::vector<std::vector<HaloField>> messages{
       {{s.u, 0, D_ + beside_u, stabilised()}},
       {{s.second, 0, smoothed, true}, {s.second, before_A, D_ * D_, false}},
   };
   // Passes of the filter and of its adjoint read one buffer and write the other.
   for (int pass = 0; pass < 2 * filter_passes; ++pass) messages.push_back({{s.filter_source[pass % 2], 0, 1, true}});
   for (auto& parts : messages)
-    std::erase_if(parts, [](Told const& t) { return t.field.data == nullptr || t.count == 0; });
+    std::erase_if(parts, [](HaloField const& t) { return t.field.data == nullptr || t.count == 0; });
   std::erase_if(messages, [](auto const& parts) { return parts.empty(); });
   return messages;
 }
 
 void JstBody::mark_halo() {
   std::set<std::pair<double const*, int>> marked;
-  for (auto const& parts : told())
-    for (Told const& t : parts)
+  for (auto const& parts : halo_fields())
+    for (HaloField const& t : parts)
       if (marked.emplace(t.field.data, t.first).second) halo_->add(t.field, t.first, t.count, t.far ? 1 : 0);
 }
 

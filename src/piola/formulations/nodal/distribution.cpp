@@ -21,9 +21,9 @@ void NodalBody::share() {
 
 void NodalBody::mark_halo() {
   state_.halo = halo_.get();
-  state_.told = halo_->received().data();
-  state_.told_count = static_cast<Index>(halo_->received().size());
-  with_dimension(D_, [&](auto dimension) { tell_sums<dimension>(*halo_, state_); });
+  state_.ghosts = halo_->received().data();
+  state_.ghost_count = static_cast<Index>(halo_->received().size());
+  with_dimension(D_, [&](auto dimension) { add_halo_fields<dimension>(*halo_, state_); });
 }
 
 /// The neighbours of local particles, with images replaced by their sources. Equal for sums over a lattice.

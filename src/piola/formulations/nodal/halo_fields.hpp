@@ -8,7 +8,7 @@ namespace piola::nodal {
 
 /// Adds the fields of ghost exchanges of a body: positions, and rows (Y_i, Z_i) of stress.
 template <int D>
-void tell_sums(HaloPlan& halo, BodyState const& state) {
+void add_halo_fields(HaloPlan& halo, BodyState const& state) {
   using R = Records<D>;
   halo.add(state.x, 0, D);
   halo.add(state.first, 0, 0);  // products of x; in a record only x changes

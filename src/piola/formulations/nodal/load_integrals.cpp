@@ -77,7 +77,7 @@ double length_of(Point const& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + 
 /// Compares the area that a load acts on with the exact one, and scales its `parts`, if they are given, to that.
 void check_area(SetUp const& from, Load const& load, WholeArea const& found, LazyZeroArray<FacePart>* parts,
                 std::vector<SetUpCheck>& checks) {
-  constexpr double told = 1e-3, rounding = 1e-9;
+  constexpr double warned = 1e-3, rounding = 1e-9;
   WholeArea const exact = exact_area(from, load);
   if (!(exact.size > 0)) return;  // on another body
   double error = found.size / exact.size - 1;
@@ -90,12 +90,12 @@ void check_area(SetUp const& from, Load const& load, WholeArea const& found, Laz
   std::string warning;
   std::string const measured = fmt::format("load '{}': sides of cells make up {:.6g} of an area of {:.6g} m^{}",
                                            load.name, found.size, exact.size, from.set.dimension - 1);
-  if (std::abs(error) > told && parts != nullptr)
+  if (std::abs(error) > warned && parts != nullptr)
     warning = fmt::format(
         "{}; the load is scaled by {:.6g}, so that its total is exact, and approximate within a spacing of the edge - "
         "use smaller spacings if what happens there counts",
         measured, exact.size / found.size);
-  else if (std::abs(error) > told)
+  else if (std::abs(error) > warned)
     warning =
         fmt::format("{}, and their resultant is wrong by {:.2g} of the area - use smaller spacings", measured, error);
   checks.push_back({load.name + ".area_error", error, warning});

@@ -151,17 +151,17 @@ IndexSet lattice_rows(LatticeShape const& shape, double reach, Range own, std::v
 std::vector<Index> representatives_in_lattice(LatticeShape const& shape, int beyond) {
   auto const most = static_cast<std::size_t>(beyond);
   std::vector<Index> known(most * most * most * most * most * most, -1);
-  std::vector<Index> alike(static_cast<std::size_t>(shape.count[0] * shape.count[1] * shape.count[2]));
-  for (std::size_t a = 0; a < alike.size(); ++a) {
+  std::vector<Index> representative(static_cast<std::size_t>(shape.count[0] * shape.count[1] * shape.count[2]));
+  for (std::size_t a = 0; a < representative.size(); ++a) {
     auto const at = shape.place(static_cast<Index>(a));
     std::size_t kind = 0;
     for (std::size_t c = 0; c < 3; ++c)
       for (int const distance : {at[c], shape.count[c] - 1 - at[c]})
         kind = kind * most + static_cast<std::size_t>(std::min(distance, beyond - 1));
     if (known[kind] < 0) known[kind] = static_cast<Index>(a);
-    alike[a] = known[kind];
+    representative[a] = known[kind];
   }
-  return alike;
+  return representative;
 }
 
 template <int D>
@@ -175,15 +175,15 @@ LocalFits<D>::LocalFits(Points const& X, std::optional<LatticeShape> const& latt
 /// Particles as far from all faces, or out of their reach, have the same neighbours.
 template <int D>
 void LocalFits<D>::fit_lattice(LatticeShape const& shape) {
-  alike_ = representatives_in_lattice(shape, static_cast<int>(usual_reach) + 1);
+  representative_ = representatives_in_lattice(shape, static_cast<int>(usual_reach) + 1);
   kind_.resize(X_.size());
   std::vector<std::size_t> first;  // of each kind
   for (std::size_t a = 0; a < X_.size(); ++a) {
-    if (alike(a) == a) {
+    if (representative(a) == a) {
       kind_[a] = static_cast<std::int32_t>(first.size());
       first.push_back(a);
     } else {
-      kind_[a] = kind_[alike(a)];
+      kind_[a] = kind_[representative(a)];
     }
   }
   if (shared_) rows_ = lattice_rows(shape, usual_reach, own(), first);
@@ -235,7 +235,7 @@ bool LocalFits<D>::lengthen(std::vector<char> const& fits) {
 template <int D>
 void LocalFits<D>::fit_cloud() {
   usual_ = true;
-  alike_.clear();
+  representative_.clear();
   kind_.clear();
   rows_ = IndexSet(static_cast<Index>(X_.size()));
   inverse_ = LazyZeroArray<double>(X_.size() * static_cast<std::size_t>(terms * terms));

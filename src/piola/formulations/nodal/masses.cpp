@@ -70,12 +70,12 @@ void transfer_masses_of_cell(Points const& X, ScaledCell const& cell, std::size_
 
 /// The pairs of the particles of this rank and of their neighbours.
 template <int D>
-MassTransfer<D> pairs_in_reach(Points const& X, std::vector<Index> const& alike, MassInput const& of) {
+MassTransfer<D> pairs_in_reach(Points const& X, std::vector<Index> const& representatives, MassInput const& of) {
   MassTransfer<D> x{IndexSet(static_cast<Index>(X.size())), {}, {}};
   if (of.lattice) {
     std::vector<std::size_t> first;
-    for (std::size_t a = 0; a < alike.size(); ++a)
-      if (alike[a] == static_cast<Index>(a)) first.push_back(a);
+    for (std::size_t a = 0; a < representatives.size(); ++a)
+      if (representatives[a] == static_cast<Index>(a)) first.push_back(a);
     if (of.shared) x.rows = lattice_rows(*of.lattice, reach, of.shared->own(), first);
     x.pairs = lattice_pairs(*of.lattice, reach, x.rows);
     return x;
@@ -94,11 +94,11 @@ MassTransfer<D> pairs_in_reach(Points const& X, std::vector<Index> const& alike,
 /// Transfers between cells; on a lattice once per kind of cell.
 template <int D>
 MassTransfer<D> transfer_masses(Points const& X, LazyZeroArray<ScaledCell> const& cells, MassInput const& of) {
-  std::vector<Index> const alike = of.lattice ? representatives_in_lattice(*of.lattice, static_cast<int>(reach))
+  std::vector<Index> const representatives = of.lattice ? representatives_in_lattice(*of.lattice, static_cast<int>(reach))
                                               : std::vector<Index>();  // at `reach` there is none
-  MassTransfer<D> x = pairs_in_reach<D>(X, alike, of);
+  MassTransfer<D> x = pairs_in_reach<D>(X, representatives, of);
   x.handed.assign(x.pairs.neighbour.size(), 0);
-  auto const is_first = [&](std::size_t a) { return !of.lattice || alike[a] == static_cast<Index>(a); };
+  auto const is_first = [&](std::size_t a) { return !of.lattice || representatives[a] == static_cast<Index>(a); };
   exec_host::parallel_for(x.rows.size(), [&](Index row) {
     std::size_t const a = x.rows[row];
     if (is_first(a)) transfer_masses_of_cell<D>(X, cells[a], a, x);
@@ -106,7 +106,7 @@ MassTransfer<D> transfer_masses(Points const& X, LazyZeroArray<ScaledCell> const
   exec_host::parallel_for(x.rows.size(), [&](Index row) {
     std::size_t const a = x.rows[row];
     if (is_first(a)) return;
-    auto const from = static_cast<std::size_t>(alike[a]);
+    auto const from = static_cast<std::size_t>(representatives[a]);
     std::copy(x.handed.begin() + static_cast<std::ptrdiff_t>(x.pairs.first(from)),
               x.handed.begin() + static_cast<std::ptrdiff_t>(x.pairs.end(from)),
               x.handed.begin() + static_cast<std::ptrdiff_t>(x.pairs.first(a)));

@@ -50,7 +50,7 @@ void ProjectionMatrix<D>::share(HaloPlan const& halo) {
   state_.slots = even_range_of_rank(slots_, comm::rank(), comm::size());
   if (state_.first.data == nullptr) state_.first = weights_.ref();  // neither sent nor read at neighbours
   halo_ = halo;
-  tell_sums<D>(*halo_, state_);
+  add_halo_fields<D>(*halo_, state_);
   state_.halo = &*halo_;
 }
 
@@ -87,8 +87,8 @@ void ProjectionMatrix<D>::fill(LocalFits<D> const& fits, LazyZeroArray<ScaledCel
   exec_host::parallel_for(fits.rows().size(), [&](Index k) {
     std::size_t const a = fits.rows()[k];
     auto const i = static_cast<Index>(a);
-    for (int m = 0; m < values && fits.alike(a) != a; ++m)
-      fields_.own.at(i, m) = fields_.own.at(static_cast<Index>(fits.alike(a)), m);
+    for (int m = 0; m < values && fits.representative(a) != a; ++m)
+      fields_.own.at(i, m) = fields_.own.at(static_cast<Index>(fits.representative(a)), m);
     fields_.V.at(i) = cells[a].volume;
     weights_.at(i, 0) = cells[a].volume * fits.own_weight(a);
     if (state_.lattice.present != nullptr) return;
@@ -103,7 +103,7 @@ void ProjectionMatrix<D>::fill(LocalFits<D> const& fits, LazyZeroArray<ScaledCel
     bool const here = mine(a);
     if (here) diagonal_[a] += weights_.at(i, 0) * (1 - own * inverse(i, 0, 0));
     double all = weights_.at(i, 0);
-    double const* of_pair = explained.data() + pairs.first(fits.alike(a));
+    double const* of_pair = explained.data() + pairs.first(fits.representative(a));
     for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k, ++of_pair) {
       if (mine(pairs.at(k)))
         diagonal_[pairs.at(k)] += cells[a].volume * pairs.weight[k] * (1 - pairs.weight[k] * *of_pair);
@@ -125,7 +125,7 @@ void ProjectionMatrix<D>::fill_sums_and_inverses(LocalFits<D> const& fits, LazyZ
   };
   exec_host::parallel_for(fits.rows().size(), [&](Index k) {
     std::size_t const a = fits.rows()[k];
-    if (fits.alike(a) != a) return;
+    if (fits.representative(a) != a) return;
     Inverse const inverse = fill_sums(fits, a, explained);
     if (lattice)
       of_kind[a] = inverse;
@@ -135,7 +135,7 @@ void ProjectionMatrix<D>::fill_sums_and_inverses(LocalFits<D> const& fits, LazyZ
   if (!lattice) return;
   inverse_.share(groups_->stored.data());
   groups_->each(fits.X().size(),
-                [&](std::size_t place, std::size_t a) { put(static_cast<Index>(place), of_kind[fits.alike(a)]); });
+                [&](std::size_t place, std::size_t a) { put(static_cast<Index>(place), of_kind[fits.representative(a)]); });
 }
 
 /// A particle's sums of weights and, per pair, p(X_b).inverse.p(X_b); returns the inverse of its normal equations.

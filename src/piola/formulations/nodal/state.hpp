@@ -106,8 +106,8 @@ struct BodyState {
   double* partial = nullptr;  ///< room for the partial results of blocks
   FailureSlot* failure = nullptr;
   HaloPlan* halo = nullptr;     ///< nullptr on one rank
-  Index const* told = nullptr;  ///< ghost slots
-  Index told_count = 0;
+  Index const* ghosts = nullptr;  ///< ghost slots
+  Index ghost_count = 0;
 };
 
 /// Additional fields of the system of the divergence theorem at set-up. Per particle: the inverse of its normal

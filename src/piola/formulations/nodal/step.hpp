@@ -133,7 +133,7 @@ class Step {
     if (on_lattice()) {
       MultiplyByCorrections<D> const multiply{read(b_.x), read(b_.mu), write(b_.first)};
       exec::for_each(b_.slots, multiply);
-      exec::for_each_item(b_.told_count, MultiplyOthers<D>{multiply, b_.told});
+      exec::for_each_item(b_.ghost_count, MultiplyOthers<D>{multiply, b_.ghosts});
     }
     halo_.refresh(b_.first);
   }

@@ -24,7 +24,7 @@ struct UniqueLaneGroups {
       std::int32_t& group = stored[static_cast<std::size_t>(begin / lanes)];
       kinds.clear();
       auto const end = std::min(static_cast<std::size_t>(begin + lanes), fits.X().size());
-      for (auto a = static_cast<std::size_t>(begin); a < end; ++a) kinds.push_back(fits.alike(a));
+      for (auto a = static_cast<std::size_t>(begin); a < end; ++a) kinds.push_back(fits.representative(a));
       if (kinds == last && begin > slots.first) {  // same kinds as the last stored group, the common case
         group = stored[static_cast<std::size_t>(begin / lanes) - 1];
         continue;

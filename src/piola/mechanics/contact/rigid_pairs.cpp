@@ -106,7 +106,7 @@ void RigidPairs::add(std::size_t shape, Vec<3> const& arm, Vec<3> const& force) 
 }
 
 /// Friction on shape a.
-Vec<3> RigidPairs::rub(std::size_t pair, std::size_t point, PairSetting const& touch, double normal_force,
+Vec<3> RigidPairs::apply_friction(std::size_t pair, std::size_t point, PairSetting const& touch, double normal_force,
                        std::vector<RigidSurface> const& shapes) {
   Pair const& p = pairs_[pair];
   RigidSurface const &a = shapes[p.a], &b = shapes[p.b];
@@ -141,7 +141,7 @@ void RigidPairs::push(std::size_t pair, std::size_t point, PairSetting const& to
   totals_.deepest = std::max(totals_.deepest, -touch.gap / setting_.spacing);
   totals_.touched += 1;
   Vec<3> f = (-psi.slope) * touch.normal;
-  if (setting_.friction.any()) f = f + rub(pair, point, touch, -psi.slope, shapes);
+  if (setting_.friction.any()) f = f + apply_friction(pair, point, touch, -psi.slope, shapes);
   add(p.a, touch.y - a.centre, f);
   add(p.b, touch.y - b.centre, -1.0 * f);
 }

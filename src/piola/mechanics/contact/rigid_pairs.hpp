@@ -73,7 +73,7 @@ class RigidPairs {
   std::vector<PairSetting> sampled_touches(std::vector<SurfaceSample> const& samples, RigidSurface const& a,
                                            RigidSurface const& b) const;
   void push(std::size_t pair, std::size_t point, PairSetting const& touch, std::vector<RigidSurface> const& shapes);
-  Vec<3> rub(std::size_t pair, std::size_t point, PairSetting const& touch, double normal_force,
+  Vec<3> apply_friction(std::size_t pair, std::size_t point, PairSetting const& touch, double normal_force,
              std::vector<RigidSurface> const& shapes);
   void add(std::size_t shape, Vec<3> const& arm, Vec<3> const& force);
   void remember(std::vector<RigidSurface> const& shapes);

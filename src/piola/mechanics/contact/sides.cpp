@@ -41,7 +41,7 @@ void SurfaceContactSystem::keep_on_side(Index point, std::size_t r, std::vector<
     // At the start the particle itself stands before the shape.
     Vec<3> before = x[self];
     bool const moved = dt_ > 0 && !last_x_.empty();
-    if (moved) before = last_x_[self] + (rubs_ ? last_F(p.host) : hosts_.F(p.host, last_x_)) * p.S;
+    if (moved) before = last_x_[self] + (has_friction_ ? last_F(p.host) : hosts_.F(p.host, last_x_)) * p.S;
     auto const sides = entered(rigid, y, moved ? last_pose_[r] : pose_of(rigid), before, is_thin);
     if (!sides) return;
     fresh.sides = *sides;

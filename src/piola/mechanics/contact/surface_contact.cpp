@@ -36,7 +36,7 @@ SurfaceContactSystem::SurfaceContactSystem(ParticleSet const& particles, std::ve
     look_at_others(b);
   }
   F_.resize(at(hosts_.count()));
-  if (rubs_) {
+  if (has_friction_) {
     last_F_.resize(F_.size());
     knows_F_.resize(F_.size());
     knows_last_F_.resize(F_.size());
@@ -56,7 +56,7 @@ SurfaceContactSystem::SurfaceContactSystem(ParticleSet const& particles, std::ve
 
 /// Sets up friction of a body, and its contact with thin or narrow rigid shapes.
 void SurfaceContactSystem::look_at_others(std::size_t body) {
-  for (PairSetting const& touch : setting_[body]) rubs_ = rubs_ || (touch.is_active && touch.friction.any());
+  for (PairSetting const& touch : setting_[body]) has_friction_ = has_friction_ || (touch.is_active && touch.friction.any());
   Surface const& surface = surfaces_[body];
   covered_.emplace_back(rigids_.size());
   thin_.emplace_back(rigids_.size());
@@ -89,7 +89,7 @@ void SurfaceContactSystem::place_points(std::vector<Vec<3>> const& x) {
   exec_host::parallel_for(static_cast<Index>(active_carriers_.size()), [&](Index k) {
     Index const host = active_carriers_[at(k)];
     F_[at(host)] = hosts_.F(host, x);
-    if (rubs_) knows_F_[at(host)] = 1;
+    if (has_friction_) knows_F_[at(host)] = 1;
   });
   exec_host::parallel_for(static_cast<Index>(active_points_.size()), [&](Index k) {
     Index const point = active_points_[at(k)];
@@ -173,7 +173,7 @@ void SurfaceContactSystem::push_bodies() {
                       sources_of(run), rule.reach,
                       [&](Index s, PointLoad const& load) { add_load(sources_[run.first + at(s)], load); });
     add_load(run.target, own);
-    rub(run, gap,
+    apply_friction(run, gap,
         {run.target, run.body, -target.area * psi.slope * seen, rule.stiffness * target.area, 0.5 * target.area});
     add_between(run, own.force);
   }
@@ -245,7 +245,7 @@ void SurfaceContactSystem::remember(std::vector<Vec<3>> const& x) {
 }
 
 void SurfaceContactSystem::evaluate(std::vector<Vec<3>> const& x, double dt) {
-  if (rubs_) {
+  if (has_friction_) {
     std::swap(F_, last_F_);
     std::swap(knows_F_, knows_last_F_);
     std::fill(knows_F_.begin(), knows_F_.end(), 0);

@@ -122,7 +122,7 @@ class SurfaceContactSystem {
   void damp_chatter(std::vector<double> const& shares);
   /// Chatter-damping impulses after the last evaluation, which must have been one with friction. v [m/s].
   ChatterDamping const& chatter(std::vector<Vec<3>> const& x, std::vector<Vec<3>> const& v);
-  bool damps_chatter() const { return rubs_ && chatter_.any(); }
+  bool damps_chatter() const { return has_friction_ && chatter_.any(); }
 
   /// The step in which the fastest pair of near points approaches by a tenth of a spacing [s]. v [m/s].
   double contact_time_step(std::vector<Vec<3>> const& v) const;
@@ -239,7 +239,7 @@ class SurfaceContactSystem {
   void add_up();
   double largest_inverse_mass(Run const& run) const;
   void note_spring(std::size_t rigid, Index point, Vec<3> const& n, double stiffness);
-  void rub(Run const& run, Gap const& gap, NormalContact const& press);
+  void apply_friction(Run const& run, Gap const& gap, NormalContact const& press);
   void rub_on_rigid(NormalContact const& press, std::size_t rigid, Vec<3> const& n);
   Mat<3> const& last_F(Index host);
   Vec<3> moved(Index point);
@@ -264,7 +264,7 @@ class SurfaceContactSystem {
   std::vector<Point> points_;
   std::vector<std::vector<PairRule>> rules_;
   std::vector<SelfContactExclusions> own_;  ///< by body: empty without self-contact
-  bool rubs_ = false;                       ///< whether any pair has friction
+  bool has_friction_ = false;                       ///< whether any pair has friction
   double dt_ = 0;                           ///< since the last evaluation [s]
   std::vector<double> inverse_mass_;
   std::vector<Vec<3>> listed_at_;         ///< positions of host particles at the last list update [m]

@@ -96,7 +96,7 @@ void SurfaceContactSystem::rub_back(std::size_t first, FrictionForce const& rubb
 }
 
 /// Friction of a target on the planes that it touches. The jump is zero for any rigid motion of all.
-void SurfaceContactSystem::rub(Run const& run, Gap const& gap, NormalContact const& press) {
+void SurfaceContactSystem::apply_friction(Run const& run, Gap const& gap, NormalContact const& press) {
   FrictionLaw const& law = setting_[points_[at(run.target)].body][run.body].friction;
   if (!law.any()) return;
   Vec<3> jump = moved(run.target), n;
