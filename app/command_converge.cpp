@@ -2,7 +2,7 @@
 #include "piola/base/text.hpp"
 #include "piola/estimates/estimate.hpp"
 #include "piola/exec/threads.hpp"
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "piola/observers/results_folder.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/simulation/build.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/units.hpp"
 #include "piola/formulations/renamed_outputs.hpp"
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/pictures/render.hpp"
 #include "piola/pictures/shape_picture.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
-#include "piola/input/body_properties.hpp"
-#include "piola/input/check_case.hpp"
-#include "piola/input/read_case.hpp"
+#include "piola/model/body_properties.hpp"
+#include "piola/model/case_particles.hpp"
+#include "piola/model/read_case.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/report/page.hpp"
 #include "piola/report/verification_page.hpp"

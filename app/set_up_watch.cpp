@@ -3,7 +3,7 @@
 #include "piola/base/stopped.hpp"
 #include "piola/base/text.hpp"
 #include "piola/domain/communicator.hpp"
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "commands.hpp"
 #include "signals.hpp"
 #include "streams.hpp"

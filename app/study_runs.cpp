@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study_runs.hpp"
 #include "piola/base/text.hpp"
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "commands.hpp"
 #include "run_support.hpp"

@@ -3,7 +3,7 @@
 # so that they do too: they take longest.
 
 set(PIOLA_MODULES base math exec kernels materials particles geometry neighbours domain mechanics formulations setup
-                  input output drawing observers guards measures pictures simulation estimates study verification
+                  input output model drawing observers guards measures pictures simulation estimates study verification
                   bench report)
 set(_patterns "")
 foreach(module IN LISTS PIOLA_MODULES)
@@ -29,8 +29,8 @@ else()
     SKIP_UNITY_BUILD_INCLUSION ON)  # programs may bring ranks_mpi.cpp in its place: PiolaProgram.cmake
 endif()
 set(_input_sources ${_sources})
-list(FILTER _input_sources INCLUDE REGEX "/src/piola/input/")
-list(FILTER _sources EXCLUDE REGEX "/src/piola/input/")
+list(FILTER _input_sources INCLUDE REGEX "/src/piola/(input|model)/")
+list(FILTER _sources EXCLUDE REGEX "/src/piola/(input|model)/")
 
 set(_outside Piola::cairo Piola::webpmux Piola::webp Piola::hdf5 PNG::PNG Piola::libdeflate Piola::qhull
              Piola::udunits2 muparser::muparser nlohmann_json::nlohmann_json)

@@ -3,7 +3,7 @@
 #include "piola/base/errors.hpp"
 #include "piola/base/units.hpp"
 #include "piola/formulations/renamed_outputs.hpp"
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "piola/simulation/build.hpp"
 #include <fmt/format.h>
 #include <pybind11/stl.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session.hpp"
 #include "piola/base/errors.hpp"
-#include "piola/input/check_case.hpp"
+#include "piola/model/case_particles.hpp"
 #include "piola/output/field_cache.hpp"
 #include <algorithm>
 #include <cmath>

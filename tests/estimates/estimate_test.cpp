@@ -2,7 +2,7 @@
 #include "piola/estimates/estimate.hpp"
 #include "piola/estimates/reduced_case.hpp"
 #include "piola/exec/threads.hpp"
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/simulation/run_case.hpp"
 #include "support/sample_case.hpp"

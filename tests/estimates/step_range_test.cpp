@@ -2,7 +2,7 @@
 // The range of the number of steps that `piola check` gives, and the trial steps that it starts from.
 #include "piola/estimates/step_range.hpp"
 #include "piola/estimates/trial.hpp"
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "support/sample_case.hpp"
 #include "support/scripted_run.hpp"
 

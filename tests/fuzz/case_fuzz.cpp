@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whatever bytes a case file holds, the reader returns a case or throws InputError, and nothing else happens.
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include <cstddef>
 #include <cstdint>
 #include <string_view>

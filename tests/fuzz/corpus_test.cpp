@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "support/places.hpp"
 #include <filesystem>
 #include <fstream>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs whose energy jumps: they end within ten steps, at once where the step falls.
 #include "piola/guards/energy_jump.hpp"
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "piola/output/checkpoint.hpp"
 #include "piola/output/frames.hpp"
 #include "piola/simulation/run_case.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run that ends because a formula is no number says so, and not that its step was too large.
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "piola/simulation/build.hpp"
 #include "piola/simulation/run_case.hpp"
 #include "support/temporary_folder.hpp"

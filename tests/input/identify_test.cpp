@@ -3,7 +3,7 @@
 #include "piola/base/version.hpp"
 #include "piola/input/case_files.hpp"
 #include "piola/input/case_keys.hpp"
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "support/temporary_folder.hpp"
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Supports, loads and mirrors of a case file.
-#include "piola/input/check_case.hpp"
-#include "piola/input/read_case.hpp"
+#include "piola/model/case_particles.hpp"
+#include "piola/model/read_case.hpp"
 #include "support/sample_case.hpp"
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "support/sample_case.hpp"
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/input/read_case.hpp"
 #include "piola/input/sections.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
 #include "piola/materials/library.hpp"
+#include "piola/model/read_case.hpp"
 #include <gtest/gtest.h>
 
 namespace piola {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Places with names, and bodies of several materials.
-#include "piola/input/check_case.hpp"
-#include "piola/input/read_case.hpp"
+#include "piola/model/case_particles.hpp"
+#include "piola/model/read_case.hpp"
 #include "support/places.hpp"
 #include "support/sample_case.hpp"
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rigid shapes and contact of a case file.
-#include "piola/input/region_checks.hpp"
 #include "piola/input/sections.hpp"
+#include "piola/model/region_checks.hpp"
 #include "piola/setup/shapes.hpp"
 #include <cmath>
 #include <gtest/gtest.h>

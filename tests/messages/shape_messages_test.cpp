@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a user is told about a shape that cannot be.
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/setup/packed_bodies.hpp"
 #include "piola/setup/packing_file.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a user is reported about ties, word for word.
-#include "piola/input/check_case.hpp"
+#include "piola/model/case_particles.hpp"
 #include "piola/simulation/build.hpp"
 #include "support/sample_case.hpp"
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/pictures/shape_picture.hpp"
 #include "piola/base/errors.hpp"
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "support/sample_case.hpp"
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/contact_surface.hpp"
-#include "piola/input/read_case.hpp"
 #include "piola/math/array_conversion.hpp"
+#include "piola/model/read_case.hpp"
 #include "piola/setup/packed_bodies.hpp"
 #include <gtest/gtest.h>
 

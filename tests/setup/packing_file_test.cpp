@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/packing_file.hpp"
 #include "piola/base/stopped.hpp"
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "support/temporary_folder.hpp"
 #include <gtest/gtest.h>

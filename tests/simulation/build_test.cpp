@@ -2,7 +2,7 @@
 #include "piola/simulation/build.hpp"
 #include "piola/base/units.hpp"
 #include "piola/input/history_names.hpp"
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "support/sample_case.hpp"
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include <stdexcept>
 #include <string>
 #include <string_view>

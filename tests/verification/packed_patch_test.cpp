@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/mesh.hpp"
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "piola/simulation/build.hpp"
 #include "support/places.hpp"
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "piola/exec/backend_registry.hpp"
 #include "piola/exec/cpu_time.hpp"
 #include "piola/exec/threads.hpp"
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "piola/simulation/build.hpp"
 #include "piola/study/refinement.hpp"
 #include <algorithm>

@@ -3,9 +3,9 @@
 #include "piola/exec/cpu_time.hpp"
 #include "piola/exec/threads.hpp"
 #include "piola/formulations/make_formulation.hpp"
-#include "piola/input/read_case.hpp"
 #include "piola/measures/probe.hpp"
 #include "piola/measures/quantities.hpp"
+#include "piola/model/read_case.hpp"
 #include "piola/simulation/build.hpp"
 #include <cmath>
 #include <fmt/format.h>

@@ -64,9 +64,10 @@ void HaloCells::finish(bool touching) {
     Index const mine = body_[static_cast<std::size_t>(cell)];
     bool const is_eulerian = any_around(cell, [&](std::size_t other) { return flows_[other] != 0; });
     bool const overlaps = touching && any_around(cell, [&](std::size_t other) {
-                         return body_[other] == several || (body_[other] != no_body && body_[other] != mine);
-                       });
-    reads_[static_cast<std::size_t>(cell)] = static_cast<std::uint8_t>((is_eulerian ? flow : 0) | (overlaps ? touch : 0));
+                            return body_[other] == several || (body_[other] != no_body && body_[other] != mine);
+                          });
+    reads_[static_cast<std::size_t>(cell)] =
+        static_cast<std::uint8_t>((is_eulerian ? flow : 0) | (overlaps ? touch : 0));
   });
   // Contact is symmetric: a cell that reads is also read. Next to Eulerian particles it is not, so exports are derived
   // separately.

@@ -72,7 +72,8 @@ std::vector<double> heights(PictureData const& data, Appearance const& appearanc
   rasterise(scene.bodies, below);
   std::vector<double> out(below.depth.size(), std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < out.size(); ++k)
-    if (below.owner[k] != no_owner) out[k] = std::max(-static_cast<double>(below.depth[k]) / scale - ground.height, 0.0);
+    if (below.owner[k] != no_owner)
+      out[k] = std::max(-static_cast<double>(below.depth[k]) / scale - ground.height, 0.0);
   return out;
 }
 

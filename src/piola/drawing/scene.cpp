@@ -7,7 +7,7 @@
 namespace piola {
 namespace {
 
-constexpr std::size_t most_balls = 2'000'000;    // above it there are more balls than samples
+constexpr std::size_t most_balls = 2'000'000;      // above it there are more balls than samples
 constexpr std::size_t most_bodies = no_owner / 2;  // with their hatched twins
 
 /// From metres to samples.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/estimates/estimate.hpp"
-#include "piola/input/body_properties.hpp"
+#include "piola/model/body_properties.hpp"
 #include <string>
 #include <vector>
 

@@ -54,7 +54,7 @@ std::string places_text(std::filesystem::path const& results) {
 
 void add_energies(Failure& failure, HistoryTable const& history) {
   bool const named = std::any_of(failure.values.begin(), failure.values.end(),
-                                [](auto const& value) { return value.first.starts_with("total energy"); });
+                                 [](auto const& value) { return value.first.starts_with("total energy"); });
   if (named || history.rows.empty() || !history.find("total_energy")) return;
   auto const energy = history.values("total_energy"), work = history.values("external_work");
   failure.values.emplace_back("energy at the start [J]", energy.front());

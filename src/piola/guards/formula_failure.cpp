@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/guards/formula_failure.hpp"
 #include "piola/base/text.hpp"
-#include "piola/input/body_properties.hpp"
-#include "piola/input/check_case.hpp"
-#include "piola/input/region_checks.hpp"
+#include "piola/model/body_properties.hpp"
+#include "piola/model/case_particles.hpp"
+#include "piola/model/region_checks.hpp"
 #include <cmath>
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 #include "piola/base/text.hpp"
 #include "piola/formulations/setting_warnings.hpp"
 #include "piola/guards/guard.hpp"
-#include "piola/input/body_properties.hpp"
-#include "piola/input/check_case.hpp"
+#include "piola/model/body_properties.hpp"
+#include "piola/model/case_particles.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #include "piola/guards/warn_of_narrow.hpp"
 #include "piola/base/text.hpp"
 #include "piola/input/contact_capabilities.hpp"
-#include "piola/input/region_checks.hpp"
+#include "piola/model/region_checks.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -3,9 +3,9 @@
 #include "piola/base/text.hpp"
 #include "piola/formulations/setting_warnings.hpp"
 #include "piola/guards/warn_of_narrow.hpp"
-#include "piola/input/clearance.hpp"
 #include "piola/input/contact_capabilities.hpp"
-#include "piola/input/region_checks.hpp"
+#include "piola/model/clearance.hpp"
+#include "piola/model/region_checks.hpp"
 #include "piola/setup/packed_bodies.hpp"
 #include <algorithm>
 #include <fmt/format.h>

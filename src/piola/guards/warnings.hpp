@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/formulations/assembly.hpp"
 #include "piola/formulations/formulation.hpp"
-#include "piola/input/body_properties.hpp"
+#include "piola/model/body_properties.hpp"
 #include <optional>
 #include <string>
 #include <vector>

@@ -4,9 +4,9 @@
 #include "piola/geometry/level_set.hpp"
 #include "piola/geometry/primitives.hpp"
 #include "piola/geometry/transformed_solid.hpp"
+#include "piola/input/places.hpp"
 #include "piola/input/read_polygon.hpp"
 #include "piola/input/read_solid.hpp"
-#include "piola/input/region_checks.hpp"
 #include "piola/math/array_conversion.hpp"
 #include <algorithm>
 #include <array>

@@ -3,11 +3,11 @@
 #include "piola/base/errors.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/exec/reproducible_sum.hpp"
-#include "piola/input/check_case.hpp"
 #include "piola/input/probe_quantities.hpp"
 #include "piola/measures/fragments.hpp"
 #include "piola/measures/rim_and_hole.hpp"
 #include "piola/measures/stress_intensity.hpp"
+#include "piola/model/case_particles.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include "piola/base/version.hpp"
 #include "piola/input/case_files.hpp"
 #include "piola/input/history_names.hpp"
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/output/checkpoint.hpp"
 #include "piola/output/folder_lock.hpp"

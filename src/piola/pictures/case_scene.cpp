@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/pictures/case_scene.hpp"
 #include "piola/drawing/skin.hpp"
-#include "piola/input/check_case.hpp"
 #include "piola/math/quaternion.hpp"
+#include "piola/model/case_particles.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

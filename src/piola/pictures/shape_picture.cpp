@@ -3,7 +3,7 @@
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
 #include "piola/drawing/rigid_picture.hpp"
-#include "piola/input/region_checks.hpp"
+#include "piola/model/region_checks.hpp"
 #include "piola/pictures/case_scene.hpp"
 #include "piola/setup/packed_bodies.hpp"
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
 #include "piola/input/case_difference.hpp"
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 

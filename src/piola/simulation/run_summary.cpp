@@ -2,8 +2,8 @@
 #include "piola/simulation/run_summary.hpp"
 #include "piola/base/version.hpp"
 #include "piola/formulations/common/set_up_checks.hpp"
-#include "piola/input/body_properties.hpp"
 #include "piola/measures/quantities.hpp"
+#include "piola/model/body_properties.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>

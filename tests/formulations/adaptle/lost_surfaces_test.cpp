@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bodies that start in contact: surfaces keep them apart, the kernel where particles have converted.
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "piola/simulation/build.hpp"
 #include "support/places.hpp"
 #include "support/temporary_folder.hpp"

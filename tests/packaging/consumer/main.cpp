@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs a case of the installed examples for a few steps and prints its energy.
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "piola/simulation/build.hpp"
 #include "piola/simulation/run_case.hpp"
 #include <cstdio>

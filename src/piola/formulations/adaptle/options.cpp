@@ -249,7 +249,7 @@ void check_one_kernel(Assembly const& assembly, std::vector<BodyOptions> const& 
   };
   for (std::size_t b = 1; b < bodies.size(); ++b) {
     bool const is_same = std::abs(width(b) - width(0)) < 1e-6 * width(0) && bodies[b].alpha == bodies[0].alpha &&
-                       bodies[b].beta == bodies[0].beta;
+                         bodies[b].beta == bodies[0].beta;
     if (is_same) continue;
     problems.add({},
                  fmt::format("contact.law = \"none\" makes one of the bodies \"{}\" and \"{}\", but their smoothing "

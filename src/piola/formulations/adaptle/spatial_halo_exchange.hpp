@@ -52,7 +52,7 @@ class SpatialHaloExchange {
   static constexpr std::size_t flow = 0, touch = 1;
   /// Communication with one other rank.
   struct Side {
-    bool overlaps = false;                           ///< cells of both ranks are adjacent
+    bool overlaps = false;                        ///< cells of both ranks are adjacent
     std::vector<Index> slots;                     ///< in the order of sending
     std::array<std::vector<Index>, 2> particles;  ///< indices of these by kind of reading
     std::vector<double> values;                   ///< message buffer, kept between steps

@@ -354,7 +354,8 @@ void JstBody::fill_filter() {
   std::vector<double> volumes(static_cast<std::size_t>(order_.slots()));
   for (Index i = 0; i < order_.particles; ++i) volumes[static_cast<std::size_t>(i)] = mirrored_volume(i);
   ReferencePairs::FilterShare const share{
-      own(), [&](std::vector<double>& values) { update_ghosts_once({.data = values.data()}, 0, 1); }, comm::allreduce_max};
+      own(), [&](std::vector<double>& values) { update_ghosts_once({.data = values.data()}, 0, 1); },
+      comm::allreduce_max};
   auto const filter = pairs_->make_filter(volumes, shared() ? &share : nullptr);
   for (Index i = own().first; i < own().last; ++i) {
     fields_.filter_scale.at(i) = filter.scale[static_cast<std::size_t>(i)];

@@ -105,7 +105,9 @@ class LocalFits {
                     static_cast<std::size_t>(k * terms + l)];
   }
   /// The first particle of a lattice with an identical neighbourhood in the same order; a itself in clouds.
-  std::size_t representative(std::size_t a) const { return representative_.empty() ? a : static_cast<std::size_t>(representative_[a]); }
+  std::size_t representative(std::size_t a) const {
+    return representative_.empty() ? a : static_cast<std::size_t>(representative_[a]);
+  }
   /// p of a pair, without the constant.
   Monomials monomials_of(std::size_t a, std::size_t b) const;
   /// e_ab: the weight of the value at b in the first and second derivatives at a.

@@ -94,8 +94,9 @@ MassTransfer<D> pairs_in_reach(Points const& X, std::vector<Index> const& repres
 /// Transfers between cells; on a lattice once per kind of cell.
 template <int D>
 MassTransfer<D> transfer_masses(Points const& X, LazyZeroArray<ScaledCell> const& cells, MassInput const& of) {
-  std::vector<Index> const representatives = of.lattice ? representatives_in_lattice(*of.lattice, static_cast<int>(reach))
-                                              : std::vector<Index>();  // at `reach` there is none
+  std::vector<Index> const representatives = of.lattice
+                                                 ? representatives_in_lattice(*of.lattice, static_cast<int>(reach))
+                                                 : std::vector<Index>();  // at `reach` there is none
   MassTransfer<D> x = pairs_in_reach<D>(X, representatives, of);
   x.handed.assign(x.pairs.neighbour.size(), 0);
   auto const is_first = [&](std::size_t a) { return !of.lattice || representatives[a] == static_cast<Index>(a); };

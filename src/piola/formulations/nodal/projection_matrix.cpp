@@ -134,8 +134,9 @@ void ProjectionMatrix<D>::fill_sums_and_inverses(LocalFits<D> const& fits, LazyZ
   });
   if (!lattice) return;
   inverse_.share(groups_->stored.data());
-  groups_->each(fits.X().size(),
-                [&](std::size_t place, std::size_t a) { put(static_cast<Index>(place), of_kind[fits.representative(a)]); });
+  groups_->each(fits.X().size(), [&](std::size_t place, std::size_t a) {
+    put(static_cast<Index>(place), of_kind[fits.representative(a)]);
+  });
 }
 
 /// A particle's sums of weights and, per pair, p(X_b).inverse.p(X_b); returns the inverse of its normal equations.

@@ -107,7 +107,7 @@ void RigidPairs::add(std::size_t shape, Vec<3> const& arm, Vec<3> const& force) 
 
 /// Friction on shape a.
 Vec<3> RigidPairs::apply_friction(std::size_t pair, std::size_t point, PairSetting const& touch, double normal_force,
-                       std::vector<RigidSurface> const& shapes) {
+                                  std::vector<RigidSurface> const& shapes) {
   Pair const& p = pairs_[pair];
   RigidSurface const &a = shapes[p.a], &b = shapes[p.b];
   auto const last = std::lower_bound(last_stuck_.begin(), last_stuck_.end(), StickState{pair, point, {}, {}});

@@ -74,7 +74,7 @@ class RigidPairs {
                                            RigidSurface const& b) const;
   void push(std::size_t pair, std::size_t point, PairSetting const& touch, std::vector<RigidSurface> const& shapes);
   Vec<3> apply_friction(std::size_t pair, std::size_t point, PairSetting const& touch, double normal_force,
-             std::vector<RigidSurface> const& shapes);
+                        std::vector<RigidSurface> const& shapes);
   void add(std::size_t shape, Vec<3> const& arm, Vec<3> const& force);
   void remember(std::vector<RigidSurface> const& shapes);
 

@@ -56,7 +56,8 @@ SurfaceContactSystem::SurfaceContactSystem(ParticleSet const& particles, std::ve
 
 /// Sets up friction of a body, and its contact with thin or narrow rigid shapes.
 void SurfaceContactSystem::look_at_others(std::size_t body) {
-  for (PairSetting const& touch : setting_[body]) has_friction_ = has_friction_ || (touch.is_active && touch.friction.any());
+  for (PairSetting const& touch : setting_[body])
+    has_friction_ = has_friction_ || (touch.is_active && touch.friction.any());
   Surface const& surface = surfaces_[body];
   covered_.emplace_back(rigids_.size());
   thin_.emplace_back(rigids_.size());
@@ -173,7 +174,8 @@ void SurfaceContactSystem::push_bodies() {
                       sources_of(run), rule.reach,
                       [&](Index s, PointLoad const& load) { add_load(sources_[run.first + at(s)], load); });
     add_load(run.target, own);
-    apply_friction(run, gap,
+    apply_friction(
+        run, gap,
         {run.target, run.body, -target.area * psi.slope * seen, rule.stiffness * target.area, 0.5 * target.area});
     add_between(run, own.force);
   }

@@ -264,7 +264,7 @@ class SurfaceContactSystem {
   std::vector<Point> points_;
   std::vector<std::vector<PairRule>> rules_;
   std::vector<SelfContactExclusions> own_;  ///< by body: empty without self-contact
-  bool has_friction_ = false;                       ///< whether any pair has friction
+  bool has_friction_ = false;               ///< whether any pair has friction
   double dt_ = 0;                           ///< since the last evaluation [s]
   std::vector<double> inverse_mass_;
   std::vector<Vec<3>> listed_at_;         ///< positions of host particles at the last list update [m]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/input/body_properties.hpp"
+#include "piola/model/body_properties.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
 #include "piola/particles/part_properties.hpp"
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/input/check_case.hpp"
-#include "piola/input/region_checks.hpp"
 #include "piola/input/sections.hpp"
+#include "piola/model/case_particles.hpp"
+#include "piola/model/region_checks.hpp"
 #include <gtest/gtest.h>
 
 namespace piola {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
-#include "piola/input/check_case.hpp"
 #include "piola/input/contact_capabilities.hpp"
-#include "piola/input/region_checks.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
 #include "piola/math/array_conversion.hpp"
+#include "piola/model/case_particles.hpp"
+#include "piola/model/region_checks.hpp"
 #include "piola/setup/contact_surface.hpp"
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
 #include "piola/input/contact_capabilities.hpp"
-#include "piola/input/region_checks.hpp"
 #include "piola/mechanics/contact/rigid_pairs.hpp"
+#include "piola/model/region_checks.hpp"
 #include <algorithm>
 
 /// Checks of rigid shapes that are free or rotate.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // One case per rule of plausible.hpp that breaks it, beside a good case that breaks none.
-#include "piola/input/body_properties.hpp"
-#include "piola/input/check_case.hpp"
 #include "piola/input/plausibility.hpp"
 #include "piola/materials/library.hpp"
+#include "piola/model/body_properties.hpp"
+#include "piola/model/case_particles.hpp"
 #include "support/places.hpp"
 #include "support/sample_case.hpp"
 #include <algorithm>

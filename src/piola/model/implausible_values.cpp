@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
-#include "piola/input/body_properties.hpp"
 #include "piola/input/plausibility.hpp"
-#include "piola/input/region_checks.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
+#include "piola/model/body_properties.hpp"
+#include "piola/model/region_checks.hpp"
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
-#include "piola/input/region_checks.hpp"
+#include "piola/model/region_checks.hpp"
 #include "piola/particles/part_properties.hpp"
 #include <algorithm>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/input/read_case.hpp"
+#include "piola/model/read_case.hpp"
 #include "piola/base/read_file.hpp"
 #include "piola/base/text.hpp"
 #include "piola/input/case_files.hpp"
-#include "piola/input/check_case.hpp"
-#include "piola/input/clearance.hpp"
 #include "piola/input/document_limits.hpp"
 #include "piola/input/identify.hpp"
 #include "piola/input/sections.hpp"
+#include "piola/model/case_particles.hpp"
+#include "piola/model/clearance.hpp"
 #include "piola/setup/packed_bodies.hpp"
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/input/check_case.hpp"
+#include "piola/model/case_particles.hpp"
 #include "piola/base/text.hpp"
-#include "piola/input/region_checks.hpp"
+#include "piola/model/region_checks.hpp"
 #include <algorithm>
 #include <cmath>
 

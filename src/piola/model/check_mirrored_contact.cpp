@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
 #include "piola/input/contact_capabilities.hpp"
-#include "piola/input/region_checks.hpp"
+#include "piola/model/region_checks.hpp"
 #include "piola/particles/body_extents.hpp"
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/input/region_checks.hpp"
+#include "piola/model/region_checks.hpp"
 #include "piola/base/text.hpp"
-#include "piola/input/check_case.hpp"
 #include "piola/input/formula_loop.hpp"
+#include "piola/model/case_particles.hpp"
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -18,26 +18,6 @@ double determinant(std::array<Expression, 9> const& F, Vec3 const& X) {
 }
 
 }  // namespace
-
-Place place_of(Places const& places, std::string_view key) {
-  auto const found = places.find(key);
-  if (found != places.end()) return found->second;
-  return key.empty() ? Place{} : place_of(places, "");
-}
-
-bool is_given(Places const& places, std::string_view key) { return places.contains(key); }
-
-Place place_in_table(Places const& places, std::string_view table, std::string_view key) {
-  auto const found = places.find(std::string(table) + "." + std::string(key));
-  return found == places.end() ? place_of(places, table) : found->second;
-}
-
-std::string point_text(Vec3 const& X, int dimension) {
-  std::string text = "(";
-  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
-    text += (d > 0 ? ", " : "") + number_text(X[d], 4);
-  return text + ") m";
-}
 
 std::string box_of(ParticleSet const& particles, Body const& body) {
   Vec3 low = particles.X[static_cast<std::size_t>(body.first)], high = low;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/input/body_properties.hpp"
-#include "piola/input/check_case.hpp"
+#include "piola/model/body_properties.hpp"
 #include "piola/materials/library.hpp"
+#include "piola/model/case_particles.hpp"
 #include "support/sample_case.hpp"
 #include <cmath>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include "piola/base/text.hpp"
 #include "piola/formulations/registry.hpp"
 #include "piola/input/contact_capabilities.hpp"
-#include "piola/input/region_checks.hpp"
+#include "piola/model/region_checks.hpp"
 #include "piola/setup/cracks.hpp"
 #include <algorithm>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/input/clearance.hpp"
+#include "piola/model/clearance.hpp"
 #include "piola/base/text.hpp"
 #include "piola/input/contact_capabilities.hpp"
-#include "piola/input/region_checks.hpp"
 #include "piola/math/array_conversion.hpp"
 #include "piola/math/tensor.hpp"
+#include "piola/model/region_checks.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/input/clearance.hpp"
-#include "piola/input/check_case.hpp"
-#include "piola/input/region_checks.hpp"
+#include "piola/model/clearance.hpp"
+#include "piola/model/case_particles.hpp"
+#include "piola/model/region_checks.hpp"
 #include "support/sample_case.hpp"
 #include <cmath>
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
-#include "piola/input/region_checks.hpp"
 #include "piola/math/array_conversion.hpp"
 #include "piola/mechanics/contact/rigid_surface.hpp"
+#include "piola/model/region_checks.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>

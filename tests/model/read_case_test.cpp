@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/input/read_case.hpp"
-#include "piola/input/check_case.hpp"
+#include "piola/model/read_case.hpp"
+#include "piola/model/case_particles.hpp"
 #include "support/sample_case.hpp"
 #include "support/temporary_folder.hpp"
 #include <cmath>
