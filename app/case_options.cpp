@@ -3,6 +3,11 @@
 
 namespace piola::app {
 
+void add_instruction_set(CLI::App& command, std::string& backend, std::string const& about) {
+  auto* const option = command.add_option("--instruction-set", backend, about);
+  command.add_option("--machine", backend, about)->group("")->excludes(option);
+}
+
 void CaseOptions::add_to(CLI::App& command, bool with_file) {
   if (with_file) command.add_option("case", file, "The case file, or a folder that holds case.toml")->required();
   command
@@ -14,13 +19,13 @@ void CaseOptions::add_to(CLI::App& command, bool with_file) {
   command.add_option(
       "--threads", threads,
       "Number of threads (default: as the case says, else OMP_NUM_THREADS, SLURM_CPUS_PER_TASK or all cores)");
-  command.add_option("--machine", backend, "Instruction set: auto, scalar, v3, v4 (default: as the case says)");
+  add_instruction_set(command, backend, "Instruction set: auto, scalar, v3, v4 (default: as the case says)");
 }
 
 std::vector<std::string> CaseOptions::overrides() const {
   std::vector<std::string> all = set;
   if (!threads.empty()) all.push_back("run.threads=" + threads);
-  if (!backend.empty()) all.push_back("run.machine=" + backend);
+  if (!backend.empty()) all.push_back("run.instruction_set=" + backend);
   return all;
 }
 

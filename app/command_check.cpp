@@ -9,7 +9,6 @@
 #include "piola/particles/part_properties.hpp"
 #include "commands.hpp"
 #include "cost_report.hpp"
-#include "ranks_report.hpp"
 #include "run_support.hpp"
 #include "set_up_watch.hpp"
 #include "solid_report.hpp"
@@ -273,7 +272,7 @@ void print_contact(CaseSpec const& spec, int dimension) {
   print_colours(spec);
   bool const own = has_kernel_contact(spec);
   if (!own) return;
-  constexpr std::array<std::string_view, 5> laws{"none", "kernel", "linear", "printed", "surface"};
+  constexpr std::array<std::string_view, 5> laws{"none", "kernel", "linear", "published", "surface"};
   ContactRule const rule = spec.contact ? ContactRule(*spec.contact) : ContactRule();
   std::string text;
   if (rule.scale != 1) text += ", scale " + number_text(rule.scale);
@@ -351,7 +350,7 @@ void say_plan(CasePlan const& plan, int ranks) {
   print_contact(spec, particles.dimension);
   print_ties(spec, particles);
   say_cost(plan);
-  if (ranks > 0) print_rank_estimate(spec, particles, cost, ranks);
+  if (ranks > 0) say_ranks(plan, ranks);
   print_output(spec);
   for (std::string const& what : left_out) print_result("left out: {}\n", what);
   for (std::string const& warning : warnings) print_result("warning: {}\n", warning);
@@ -378,9 +377,9 @@ void add_check(CLI::App& program, Action& action) {
   options->from.add_to(*command);
   command
       ->add_option("--ranks", options->ranks,
-                   "Say as well what each of so many ranks (processes, see clusters) would have to do")
+                   "Also estimate particles and memory of each rank (process) of a run on this number of ranks")
       ->check(CLI::Range(1, 100'000));
-  command->add_flag("--json", options->json, "Say it as one JSON object, for scripts");
+  command->add_flag("--json", options->json, "Print one JSON object, for scripts");
   command->callback([options, &action] { action = [options] { return check(*options); }; });
 }
 

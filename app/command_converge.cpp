@@ -3,9 +3,9 @@
 #include "piola/estimates/estimate.hpp"
 #include "piola/exec/threads.hpp"
 #include "piola/input/read_case.hpp"
+#include "piola/observers/results_folder.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/simulation/build.hpp"
-#include "piola/observers/results_folder.hpp"
 #include "piola/study/convergence_table.hpp"
 #include "piola/study/refinement.hpp"
 #include "commands.hpp"
@@ -45,8 +45,10 @@ struct Level {
 Estimate cost_of(CaseSpec const& spec, ParticleSet const& particles) {
   if (particles.size() >= large_case)
     return estimate_from_parts(spec, particles, exec_host::set_threads(spec.run.threads));
-  Simulation const simulation = build(spec, particles);
-  return estimate(spec, simulation.particles, *simulation.formulation, simulation.threads);
+  CostMeter const meter;
+  Simulation simulation = build(spec, particles);
+  Trial trial;
+  return estimate(simulation, meter, trial);
 }
 
 /// The case as it is, with all settings but those of the spacing.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/errors.hpp"
+#include "piola/formulations/renamed_outputs.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/pictures/history_plot.hpp"
 #include "piola/report/checks_of_run.hpp"
@@ -59,8 +60,12 @@ Plot plot_of_run(PlotArguments const& options) {
   return drawn;
 }
 
-int plot(PlotArguments const& options) {
+int plot(PlotArguments options) {
   std::filesystem::path const table = study_table_at(options.folder);
+  if (table.empty()) {
+    for (std::string& column : options.columns) column = current_output_name(column);
+    options.against = current_output_name(options.against);
+  }
   Plot drawn = table.empty() ? plot_of_run(options) : plot_of_study(options, table);
   drawn.width = options.size[0];
   drawn.height = options.size[1];

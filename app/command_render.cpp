@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/units.hpp"
+#include "piola/formulations/renamed_outputs.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/pictures/render.hpp"
@@ -124,6 +125,7 @@ int render(RenderArguments options) {
   give_folder_back(options);
   check_folders(options);
   check_fields(options);
+  for (std::string& field : options.fields) field = current_output_name(field);
   options.folder = options.folders.front();
   if (options.shape) return render_shape(options);
   RenderOptions what{.field = options.fields.front(),
@@ -141,7 +143,7 @@ int render(RenderArguments options) {
   what.outline = !options.no_outline;
   if (!options.cut.empty()) {
     auto const& c = options.cut;
-    what.cut = CutPlane{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, options.ghost, false};
+    what.cut = AppearanceSpec::Cut{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, options.ghost, false};
   }
   if (!options.range.empty()) what.range = {options.range[0], options.range[1]};
   if (!options.film.file.empty()) {
@@ -165,9 +167,9 @@ void add_look_options(CLI::App& command, RenderArguments& options) {
   PictureOverrides& look = options.look;
   command
       .add_option("--view", options.view,
-                  "Azimuth and elevation in degrees, or x, y, z, -x, -y, -z, iso, iso2 (default: as the case has it)")
+                  "Azimuth and elevation in degrees, or x, y, z, -x, -y, -z, iso, iso2 (default: that of the case)")
       ->expected(1, 2);
-  command.add_option("--up", look.up, "Axis that points upwards: x, y, z, -x, -y, -z; auto: as the case has it")
+  command.add_option("--up", look.up, "Axis that points upwards: x, y, z, -x, -y, -z; auto: that of the case")
       ->check(CLI::IsMember({"auto", "x", "y", "z", "-x", "-y", "-z"}))
       ->capture_default_str();
   command.add_option("--roll", look.roll, "Angle in degrees by which the picture is turned, anticlockwise")
@@ -185,7 +187,7 @@ void add_look_options(CLI::App& command, RenderArguments& options) {
   command.add_flag("--no-labels", options.no_labels, "Only the bodies: no title, time, colour bar, axes, scale bar");
   command
       .add_option("--size", options.size,
-                  "Width and height in pixels (default: as the case has it, else as what is shown needs it)")
+                  "Width and height in pixels (default: that of the case, else fitted to the content)")
       ->expected(2)
       ->check(CLI::Range(200, 20000));
 }
@@ -194,7 +196,7 @@ void add_look_options(CLI::App& command, RenderArguments& options) {
 void add_drawing_options(CLI::App& command, PictureOverrides& look) {
   command.add_option("--quality", look.quality, "normal; high: more samples and a smoother shade")
       ->check(CLI::IsMember(std::vector<std::string>(quality_words.begin(), quality_words.end())));
-  command.add_option("--warp", look.warp, "Draws displacements so many times as large")->check(CLI::Range(0.0, 1e6));
+  command.add_option("--warp", look.warp, "Magnification of displacements")->check(CLI::Range(0.0, 1e6));
   command.add_flag("--supports", look.supports, "Hatches what supports hold");
   command.add_flag("--ground", look.ground, "A plane below the bodies, with their shadow; in space only");
 }
@@ -248,7 +250,8 @@ void add_shape_options(CLI::App& command, RenderArguments& options) {
     shape->excludes(command.get_option(of_frames));
   command.add_flag("--patches", options.patches, "With --shape: colours by patch of the surface")->needs(shape);
   options.with.add_to(command, false);
-  for (char const* const of_case : {"--set", "--threads", "--machine"}) command.get_option(of_case)->needs(shape);
+  for (char const* const of_case : {"--set", "--threads", "--instruction-set", "--machine"})
+    command.get_option(of_case)->needs(shape);
 }
 
 }  // namespace
@@ -274,7 +277,7 @@ void add_render(CLI::App& program, Action& action) {
   auto* const frames =
       command->add_option("--frame", options->frames, "Draw this frame only, counted from 0; also several");
   auto* const last = command->add_flag("--last", options->last, "Draw the last frame only")->excludes(frames);
-  command->add_option("--every", options->every, "Draw the first frame and each so many after it")
+  command->add_option("--every", options->every, "Draw the first frame and every N-th after it")
       ->check(CLI::Range(1, 1000000))
       ->excludes(frames)
       ->excludes(last);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
+#include "piola/formulations/renamed_outputs.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/report/page.hpp"
 #include "piola/report/report.hpp"
@@ -49,6 +50,7 @@ int write_page_of_run(ReportArguments options) {
       options.out.empty() ? std::filesystem::path(options.folder) / "report.html" : std::filesystem::path(options.out);
   report::require_page_name(out);
   if (out.has_parent_path()) make_folder(out.parent_path());
+  for (std::string& field : options.what.fields) field = current_output_name(field);
   options.what.budget = options.megabytes * 1e6;
   options.what.reload = options.follow ? follow_seconds : 0;
   if (options.follow) return follow(options, out);
@@ -64,9 +66,11 @@ void add_report(CLI::App& program, Action& action) {
       "report", "Write one HTML page about a run: particles in space over time, plots, tables; any browser shows it");
   command->add_option("folder", options->folder, "The results folder of the run")->required();
   command->add_option("--out,-o", options->out, "The page (default: report.html in the folder)");
-  command->add_option("--fields", options->what.fields, "Fields of the frames to show (default: those that say most)")
+  command
+      ->add_option("--fields", options->what.fields,
+                   "Fields of the frames to show (default: the most informative ones)")
       ->delimiter(',');
-  command->add_option("--frames", options->what.frames, "At most so many frames, evenly chosen (default: up to 200)")
+  command->add_option("--frames", options->what.frames, "Largest number of frames, evenly chosen (default: 200)")
       ->check(CLI::Range(1, 100000));
   command->add_option("--bits", options->what.bits, "Bits of a coordinate")
       ->check(CLI::Range(8, 16))
@@ -78,7 +82,7 @@ void add_report(CLI::App& program, Action& action) {
   command->add_option("--checks", options->what.checks,
                       "A checks.toml to judge the run by (default: that in the folder)");
   command->add_option("--variant", options->what.variant, "Its variant that the run is (default: found by the case)");
-  command->add_flag("--follow", options->follow, "Write the page anew every 10 s until the run has ended");
+  command->add_flag("--follow", options->follow, "Write the page again every 10 s until the run has ended");
   command->callback([options, &action] { action = [options] { return write_page_of_run(*options); }; });
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/renamed_outputs.hpp"
 #include "piola/report/watch.hpp"
 #include "commands.hpp"
 #include "signals.hpp"
@@ -26,7 +27,7 @@ std::size_t width_of_terminal() {
 int watch(WatchArguments const& options) {
   catch_stop_signals();
   bool const terminal = ::isatty(STDOUT_FILENO) != 0;
-  report::Watch run(options.folder, options.column);
+  report::Watch run(options.folder, current_output_name(options.column));
   for (;;) {
     auto const [text, over] = run.look(width_of_terminal());
     if (terminal && !options.once) clear_terminal();
@@ -44,10 +45,10 @@ void add_watch(CLI::App& program, Action& action) {
       "watch", "Show how a run stands, in the terminal, until it ends: energies, a column over time, the last row");
   command->add_option("folder", options->folder, "The results folder of the run")->required();
   command->add_option("column", options->column, "The column of history.csv to draw")->capture_default_str();
-  command->add_option("--every", options->every, "Seconds between two looks")
+  command->add_option("--every", options->every, "Seconds between two updates")
       ->check(CLI::Range(0.1, 3600.0))
       ->capture_default_str();
-  command->add_flag("--once", options->once, "Look once");
+  command->add_flag("--once", options->once, "Show one update");
   command->callback([options, &action] { action = [options] { return watch(*options); }; });
 }
 

@@ -27,13 +27,16 @@ void add_study(CLI::App& program, Action& action);
 void add_converge(CLI::App& program, Action& action);
 void add_bench(CLI::App& program, Action& action);
 
+/// Adds --instruction-set, and --machine, its name in the previous minor release, which no help shows.
+void add_instruction_set(CLI::App& command, std::string& backend, std::string const& about);
+
 /// Common options of several commands: changes of a case on the command line before it is read.
 struct CaseOptions {
   std::string file;              ///< the case file
   std::vector<std::string> set;  ///< --set key=value
-  std::string threads, backend;  ///< --threads, --machine: short for --set run.threads=..., run.machine=...
+  std::string threads, backend;  ///< --threads, --instruction-set: short for --set run.threads=... and so on
   void add_to(CLI::App& command, bool with_file = true);
-  /// All as "key=value", in the order given; --threads and --machine last.
+  /// All as "key=value", in the order given; --threads and --instruction-set last.
   std::vector<std::string> overrides() const;
 };
 

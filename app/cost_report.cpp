@@ -33,4 +33,12 @@ void say_cost(CasePlan const& plan) {
                cost.threads == 1 ? "thread" : "threads", size_text(cost.memory), size_text(cost.disk));
 }
 
+void say_ranks(CasePlan const& plan, int ranks) {
+  std::string const all = count_text(ranks) + (ranks == 1 ? " rank" : " ranks");
+  print_result("on {}: about {} particles and {} of memory each\n", all, count_text(plan.particles.size() / ranks),
+               size_text(memory_of_rank(plan.cost, plan.particles, ranks)));
+  print_result("  a run of 20 steps on {} (run.end = \"{}\") shows the speed: message_seconds in summary.json\n", all,
+               quantity_text(20 * plan.cost.step, "s", 3));
+}
+
 }  // namespace piola::app

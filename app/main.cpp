@@ -18,7 +18,7 @@
 namespace {
 
 using namespace piola;
-using app::tell;
+using app::print_message;
 
 /// One rank speaks for all of them.
 int report(std::string const& message, int code) {
@@ -57,7 +57,7 @@ int perform(app::Action const& action) {
         fmt::format("{}: cannot be used, {} - check the path", error.path1().string(), error.code().message()),
         app::internal_error);
   } catch (std::bad_alloc const&) {
-    return report("not enough memory for this many particles - choose fewer ('piola check' tells how much is needed)",
+    return report("not enough memory for this many particles - choose fewer ('piola check' reports how much is needed)",
                   app::internal_error);
   } catch (std::exception const& error) {
     return report(fmt::format("internal error, please report it: {}", error.what()), app::internal_error);

@@ -13,6 +13,9 @@ std::vector<CLI::App const*> commands_of(CLI::App const& program) {
   return program.get_subcommands([](CLI::App const*) { return true; });
 }
 
+/// Options of the previous release are in no group.
+bool is_shown(CLI::Option const* option) { return !option->get_group().empty(); }
+
 /// Text for troff: hyphens that can be searched for, backslashes as such, and no line that begins a request.
 std::string troff(std::string_view text) {
   std::string out;
@@ -41,7 +44,7 @@ std::string names_of(CLI::Option const& option) {
 
 std::string entries(CLI::App const& command) {
   std::string text;
-  for (CLI::Option const* option : command.get_options())
+  for (CLI::Option const* option : command.get_options(is_shown))
     text += fmt::format(".TP\n.B {}\n{}\n", troff(names_of(*option)), troff(option->get_description()));
   return text;
 }
@@ -56,7 +59,7 @@ std::string synopsis(CLI::App const& command) {
 /// Words that start with "--" or "-", separated by spaces.
 std::string flags_of(CLI::App const& command) {
   std::string words;
-  for (CLI::Option const* option : command.get_options()) {
+  for (CLI::Option const* option : command.get_options(is_shown)) {
     for (std::string const& name : option->get_lnames()) words += "--" + name + " ";
     for (std::string const& name : option->get_snames()) words += "-" + name + " ";
   }

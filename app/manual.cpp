@@ -233,7 +233,7 @@ std::string overview() {
 
 std::string manual_page() {
   return "# Case file: all keys\n\n"
-         "This page is written by `piola describe --markdown`; how to write a case file is told in\n"
+         "This page is written by `piola describe --markdown`; how to write a case file: see\n"
          "[case-file.md](case-file.md). A quantity is a number in SI units or a text with a unit (`\"17 MPa\"`). A "
          "formula is a\n"
          "text in `X`, `Y`, `Z` (reference position, m), `t` (time, s), `pi`, the `[constants]` and the names of "

@@ -124,7 +124,7 @@ std::string end_report(CaseOutcome const& outcome, std::filesystem::path const& 
 void add_wall_time(CLI::App& command, std::string& text) {
   command
       .add_option("--wall-time", text,
-                  "Stop with a checkpoint before so much time has passed, e.g. \"2 h\" (exit code 4)")
+                  "Stop with a checkpoint before this wall time has passed, e.g. \"2 h\" (exit code 4)")
       ->check([](std::string const& given) { return given.empty() ? "a time such as \"2 h\" is needed" : ""; }, "TIME");
 }
 
@@ -160,6 +160,16 @@ void refuse_link_loop(std::filesystem::path const& path, std::error_code const& 
       fmt::format("{}: is a link that leads back to itself (a file or folder is needed) - correct the link "
                   "('readlink' shows where it leads)",
                   path.string()));
+}
+
+std::filesystem::path data_folder(std::string const& name, std::string const& source) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  fs::path const program = fs::read_symlink("/proc/self/exe", error);
+  for (fs::path at = program.parent_path(); !error && at.has_relative_path(); at = at.parent_path())
+    for (fs::path const& place : {fs::path("share/piola") / name, fs::path(source)})
+      if (fs::is_directory(at / place)) return at / place;
+  return source;
 }
 
 std::filesystem::path case_file(std::filesystem::path const& given) {

@@ -29,7 +29,7 @@ def run(program, ranks, case, folder, kind, step):
     subprocess.run(words, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                    env={**os.environ, "OMP_NUM_THREADS": "1", "OMP_WAIT_POLICY": "passive"})
     summary = json.loads((folder / "summary.json").read_text())
-    return summary["wall_seconds"], summary.get("seconds", {}).get("gathering", 0.0)
+    return summary["wall_seconds"], summary.get("seconds", {}).get("gather", 0.0)
 
 
 program, n = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 60

@@ -2,6 +2,7 @@
 #include "case.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/base/units.hpp"
+#include "piola/formulations/renamed_outputs.hpp"
 #include "piola/input/read_case.hpp"
 #include "piola/simulation/build.hpp"
 #include <fmt/format.h>
@@ -73,6 +74,7 @@ void add_case(py::module_& m) {
         py::arg("of_results") = false);
   m.def("warnings", &warnings_for, py::arg("case"));
   m.def("seconds", &seconds, py::arg("text"));
+  m.def("current_output_name", &current_output_name, py::arg("name"));
   py::class_<ReadCase>(m, "ReadCase")
       .def_property_readonly("title", [](ReadCase const& from) { return from.spec.title; })
       .def_property_readonly("file", [](ReadCase const& from) { return from.file; })

@@ -4,21 +4,42 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from typing import Dict, Iterator, List, Union
 
 import numpy as np
 
-from .errors import FileError
+from . import _piola
+from .errors import CaseWarning, FileError
 from .strict import Strict, advice
 
 
-def read_table(path: str) -> Dict[str, np.ndarray]:
+def present_name(name: str) -> str:
+    """The present name of a column or field, with a CaseWarning for a name of the previous minor release."""
+    now = _piola.current_output_name(name)
+    if now != name:
+        warnings.warn(f"{name!r} is now {now!r} - write this, since the next minor release refuses the other",
+                      CaseWarning, stacklevel=3)
+    return now
+
+
+class Columns(Dict[str, np.ndarray]):
+    """Columns by name. A name of the previous minor release gives the column of today."""
+
+    def __missing__(self, name: str) -> np.ndarray:
+        now = present_name(name)
+        if now not in self:
+            raise KeyError(name)
+        return self[now]
+
+
+def read_table(path: str) -> Columns:
     """The columns of a CSV file with a header; empty cells are nan."""
     with open(path, encoding="utf-8") as file:
-        names = file.readline().strip().split(",")
+        names = [_piola.current_output_name(name) for name in file.readline().strip().split(",")]
         rows = [[float(cell) if cell else np.nan for cell in line.rstrip("\n").split(",")] for line in file]
     values = np.array([row for row in rows if len(row) == len(names)]).reshape(-1, len(names))
-    return {name: values[:, column] for column, name in enumerate(names)}
+    return Columns({name: values[:, column] for column, name in enumerate(names)})
 
 
 class Frame(Strict):
@@ -35,23 +56,26 @@ class Frame(Strict):
     def fields(self) -> List[str]:
         """The names that [] knows."""
         with _open(self.path) as file:
-            return ["Position"] + sorted(file["VTKHDF/PointData"])
+            return ["Position"] + sorted(_stored_names(file["VTKHDF/PointData"]))
 
     @property
     def units(self) -> Dict[str, str]:
         """The SI unit of each field, e.g. {"Pressure": "Pa"}."""
         with _open(self.path) as file:
             data = file["VTKHDF/PointData"]
-            return {"Position": "m"} | {name: _text(data[name].attrs.get("unit", "")) for name in sorted(data)}
+            stored = _stored_names(data)
+            return {"Position": "m"} | {name: _text(data[stored[name]].attrs.get("unit", "")) for name in sorted(stored)}
 
     def __getitem__(self, name: str) -> np.ndarray:
+        name = present_name(name)
         with _open(self.path) as file:
             data = file["VTKHDF/PointData"]
-            if name != "Position" and name not in data:
-                raise KeyError(f"{self.path} has no field {name!r} (it has Position, {', '.join(sorted(data))}) - "
-                               f"{advice(name, ['Position', *data])}")
+            stored = _stored_names(data)
+            if name != "Position" and name not in stored:
+                raise KeyError(f"{self.path} has no field {name!r} (it has Position, {', '.join(sorted(stored))}) - "
+                               f"{advice(name, ['Position', *stored])}")
             order = np.argsort(data["Id"][:], kind="stable")
-            return (file["VTKHDF/Points"] if name == "Position" else data[name])[:][order]
+            return (file["VTKHDF/Points"] if name == "Position" else data[stored[name]])[:][order]
 
     def __repr__(self) -> str:
         return f"<frame at t = {self.time:.6g} s of {self.path}>"
@@ -93,7 +117,7 @@ class Results(Strict):
             raise FileError(f"{self.folder}: holds no results of a run - give the folder that the run wrote to")
 
     @property
-    def history(self) -> Dict[str, np.ndarray]:
+    def history(self) -> Columns:
         """The columns of history.csv, in SI units."""
         return read_table(os.path.join(self.folder, "history.csv"))
 
@@ -130,6 +154,11 @@ class Results(Strict):
             more = () if values.ndim == 2 else (f"component_{values.shape[2]}",)
             variables[name] = (("time", "particle") + more, values, {"units": units[name]})
         return xarray.Dataset(variables, coords={"time": ("time", self.frames.times, {"units": "s"})})
+
+
+def _stored_names(data) -> Dict[str, str]:
+    """Names in a file, by present names of the fields."""
+    return {_piola.current_output_name(name): name for name in data}
 
 
 def _open(path: str):

@@ -14,6 +14,7 @@ import numpy as np
 from . import _piola
 from .case import Case
 from .errors import CaseWarning
+from .results import Columns, present_name
 from .strict import Strict
 
 STOP = object()
@@ -139,9 +140,9 @@ class Run(Strict):
         return np.array(self._session.angular_momentum)
 
     @property
-    def history(self) -> Dict[str, np.ndarray]:
+    def history(self) -> Columns:
         """The columns of history.csv so far, by name, in SI units."""
-        return {name: values for name, (_, values) in self._session.history.items()}
+        return Columns({name: values for name, (_, values) in self._session.history.items()})
 
     @property
     def history_units(self) -> Dict[str, str]:
@@ -153,6 +154,7 @@ class Run(Strict):
 
         Raises KeyError for a field that is not in `fields`, ValueError or TypeError for an array that does not fit.
         """
+        name = present_name(name)
         if out is None:
             return self._session.field(name)
         self._session.field(name, out)

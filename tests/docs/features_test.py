@@ -245,10 +245,10 @@ def crack(formulation):
 
 
 def follows(formulation):
-    made = plain(formulation) | {"load": [{"body": "block", "face": "+x", "pressure": "1e6", "follows": True}]}
+    made = plain(formulation) | {"load": [{"body": "block", "face": "+x", "pressure": "1e6", "follower": True}]}
     made["body"][0]["initial_velocity"] = ["-30*Y", "30*X"]
     other = copy.deepcopy(made)
-    other["load"][0]["follows"] = False
+    other["load"][0]["follower"] = False
     return made, other
 
 

@@ -123,7 +123,7 @@ for old, new, told in [
         ('end = "1 s"', "ende = 1", "ende is no key"),
         ('end = "1 s"', "end = -1", "out of range"),
         ('end = "1 s"', "end = true", "run.end is True"),
-        ('end = "1 s"', 'end = 1, machine = "v5"', "v5"),
+        ('end = "1 s"', 'end = 1, instruction_set = "v5"', "v5"),
         ('end = "1 s"', 'end = 1, threads = "all"', "all"),
         ("[0, 0]", "[0, 0, 0, 0]", "4 items"),
         ("density = 1, ", "", "density is missing"),

@@ -141,7 +141,7 @@ name = "press"
 body = "block"
 face = "+z"
 pressure = "200e6*min(t/1e-6, 1)"
-follows = true
+follower = true
 until = "1.5 us"
 [[support]]
 name = "foot"
@@ -432,8 +432,8 @@ OWN_CASES = {name: text + OUTPUT for name, text in {
     "held packing": HELD,
     "multipliers": MULTIPLIERS.replace("SCHEME", ""),
     "multipliers of the paper's scheme": MULTIPLIERS.replace("SCHEME", ', scheme = "paper"'),
-    "estimates, triangles": of_taylor(', exchange = "estimates", virtual_particles = "delaunay"', 0.15),
-    "estimates, boxes": of_taylor(', exchange = "estimates", virtual_particles = "lattice_cells"'),
+    "estimates, triangles": of_taylor(', exchange = "kernel_sums", virtual_particles = "delaunay"', 0.15),
+    "estimates, boxes": of_taylor(', exchange = "kernel_sums", virtual_particles = "lattice_cells"'),
     "estimates, fixed": of_taylor(', configuration = "fixed"'),
     "adjoint, triangles": of_taylor("", 0.15),
     "adjoint, boxes": of_taylor(', virtual_particles = "lattice_cells", hourglass_stiffness = 0.05'),
@@ -466,14 +466,14 @@ VARIANTS = {
                  RING + "material.d1=0.00001"]),
     "released": ("expanding_ring", "failed_particles", [RING + "material.d1=0.00001"]),
     "meeting": ("impact_2d", "contact_overlap", [NEAR, COARSE]),
-    "by the printed law": ("impact_2d", "contact_overlap", [NEAR, COARSE, "contact.law=printed",
+    "by the printed law": ("impact_2d", "contact_overlap", [NEAR, COARSE, "contact.law=published",
                                                             "contact.stiffness=1e9"]),
     "jittered patch": ("tensile_patch", "eulerian_particles", [*PATCH, "body.sheet.shape.jitter=0.2"]),
     "blended patch": ("tensile_patch", "eulerian_particles", [*PATCH, SHEET + "blend=4"]),
     "damped patch": ("tensile_patch", "eulerian_particles",
                      [*PATCH, SHEET + "hourglass=0.2", SHEET + "hourglass_stiffness=0.1"]),
     "printed patch": ("tensile_patch", "eulerian_particles",
-                      [*PATCH, SHEET + "interface=printed", SHEET + "correction=material"]),
+                      [*PATCH, SHEET + "interface=published", SHEET + "correction=material"]),
     "corrected": ("tensile_patch", "eulerian_particles", [SHEET + "description=eulerian"]),
     "fluxes": ("colliding_halves", "eulerian_particles",
                [HALVES + "description=eulerian", HALVES + "viscosity=riemann"]),

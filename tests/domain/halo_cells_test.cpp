@@ -62,8 +62,10 @@ TEST(HaloCells, TellThoseWithinReachAndNobodyFarAway) {
     std::map<std::pair<Index, int>, HaloCells::Cell> cells;
     for (Index i = 0; i < n; ++i) {
       Index const key = grid.keys()[i];
+      std::array<double, 3> place = grid.where(i);
+      for (std::size_t d = 0; d < 3; ++d) place[d] -= grid.corner(key)[d];
       cells.try_emplace({key, c.owner[at(i)]}, HaloCells::Cell{key, c.body[at(i)]})
-          .first->second.add(c.body[at(i)], c.is_eulerian[at(i)] != 0, grid.within(key, i));
+          .first->second.add(c.body[at(i)], c.is_eulerian[at(i)] != 0, place);
     }
     HaloCells marks;
     marks.start(grid.shape(), dimension);

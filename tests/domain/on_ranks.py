@@ -77,7 +77,7 @@ def words_of(file):
     """A log or a summary without what depends on how fast the run was, or on how many it was shared."""
     text = file.read_text().replace(f"{file.parent}/", "")
     if file.name == "log.txt":
-        text = re.sub(r"(?m)^.*shared out among the ranks anew.*\n", "", text)
+        text = re.sub(r"(?m)^.*particles were repartitioned.*\n", "", text)
         return re.sub(r", [\d.e-]+ [^,]+ of wall time|\d+ thread", "", text)
     summary = json.loads(text)
     for name in ("wall_seconds", "stages_per_second", "seconds", "threads", "ranks", "repartition"):

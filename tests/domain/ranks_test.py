@@ -178,7 +178,6 @@ def check_words(bar, work):
             (["run", work / "many.toml", "--out", work / "no"], 2, "triangulations are made by every rank"),
             (["run", bar, "--set", "run.ende=1"], 2, "is not a key of run"),
             (["run", "nothing.toml"], 2, "no such case file"),
-            (["run", SOURCE / "cases/jst_sph/advection", "--out", work / "no"], 2, '"jst_advection" runs on one'),
             (["check", bar], 2, "start this command without mpirun"),
             (["fly"], 2, "fly")):
         told = piola(2, *words)

@@ -59,7 +59,7 @@ Trial trial(std::int64_t most, double end) {
   testing::Scripted formulation(script, 4);
   RunSpec run;
   run.end = end;
-  return take_trial_steps(formulation, run, most, 10);
+  return take_trial_steps(formulation, run, {.most = most});
 }
 
 TEST(Trial, GivesTheMeanStepsOfItsLastTwoQuarters) {
@@ -70,6 +70,15 @@ TEST(Trial, GivesTheMeanStepsOfItsLastTwoQuarters) {
   EXPECT_NEAR(t.earlier, 1e-3, 1e-12) << "steps 5 and 6";
   EXPECT_FALSE(t.over);
   EXPECT_FALSE(t.failure);
+}
+
+TEST(Trial, EndsAfterItsSecondsButNotBeforeTheFewestSteps) {
+  testing::Scripted formulation({}, 4);
+  RunSpec run;
+  run.end = 1;
+  Trial const t = take_trial_steps(formulation, run, {.fewest = 12, .seconds = 0});
+  EXPECT_EQ(t.steps, 12);
+  EXPECT_GT(t.step_seconds, 0);
 }
 
 TEST(Trial, OfOneStepHasNoEarlierOne) {
@@ -91,7 +100,7 @@ TEST(Trial, LeavesOutTheStepThatIsCutToTheEnd) {
 TEST(Trial, ReportsTheFailureOfItsLastStep) {
   Simulation s = testing::make_springs();
   testing::springs(s).fail_at = 5;
-  Trial const t = take_trial_steps(*s.formulation, s.spec.run, 100, 10);
+  Trial const t = take_trial_steps(*s.formulation, s.spec.run, {.most = 100});
   ASSERT_TRUE(t.failure);
   EXPECT_EQ(t.failure->what, "is inverted");
   EXPECT_EQ(t.steps, 5);

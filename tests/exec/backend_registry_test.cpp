@@ -17,6 +17,13 @@ TEST(InstructionSets, ThatEveryProcessorHasAreUsable) {
 
 TEST(InstructionSets, ContainEachOther) { EXPECT_TRUE(!processor_can_run("v4") || processor_can_run("v3")); }
 
+TEST(InstructionSets, OfThisProgramAreListedBestFirst) {
+  auto const usable = usable_backends();
+  ASSERT_FALSE(usable.empty());
+  for (std::string const& name : usable) EXPECT_TRUE(processor_can_run(name));
+  EXPECT_TRUE(backend_text("auto").starts_with(usable.front() + " of a processor with "));
+}
+
 struct Fake {
   char const* name;
 };
@@ -45,7 +52,7 @@ TEST(BackendRegistry, FindsByNameAndTakesTheFirstForAuto) {
 TEST(BackendRegistry, SaysWhichMachinesAreUsable) {
   char const* const names[] = {"v4", "scalar", nullptr};
   EXPECT_EQ(not_usable("v9", names),
-            "machine 'v9' is unknown or not usable on this processor (usable: auto, v4, scalar)");
+            "instruction set 'v9' is unknown or not usable on this processor (usable: auto, v4, scalar)");
 }
 
 TEST(BackendRegistry, SaysThatAProgramWasBuiltForAnotherProcessor) {

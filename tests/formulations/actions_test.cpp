@@ -35,7 +35,7 @@ std::vector<Kind> kinds() {
        }},
       {"taylor_estimates",
        [](ParticleSet set) {
-         return with_words(assemble_taylor(std::move(set)), {{"configuration", "updated"}, {"exchange", "estimates"}});
+         return with_words(assemble_taylor(std::move(set)), {{"configuration", "updated"}, {"exchange", "kernel_sums"}});
        }},
       {"nodal",
        [](ParticleSet set) {

@@ -75,7 +75,6 @@ TEST(Formulations, RefuseWhatTheyDoNotKnow) {
   }
   EXPECT_FALSE(find_formulation("jst_sph")->cracks);
   EXPECT_TRUE(find_formulation("jst_sph")->mirrors);
-  EXPECT_FALSE(find_formulation("jst_advection")->cracks);
   EXPECT_TRUE(find_formulation("jst_sph")->off_lattice);
   EXPECT_FALSE(find_formulation("taylor_sph")->off_lattice);
   EXPECT_FALSE(find_formulation("jst_sph")->contact);

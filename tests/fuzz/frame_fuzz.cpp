@@ -3,7 +3,7 @@
 // cloud of points it is read or refused in words.
 #include "piola/base/errors.hpp"
 #include "piola/drawing/picture.hpp"
-#include "piola/output/frames.hpp"
+#include "piola/output/frame_reader.hpp"
 #include "piola/setup/cloud_file.hpp"
 #include "odd_file.hpp"
 #include <algorithm>
@@ -40,14 +40,18 @@ void write_frame(fuzz::Choices& choices, std::filesystem::path const& path) {
   file.dataset("/VTKHDF/FieldData/TimeValue", H5T_NATIVE_DOUBLE, {1}, std::vector<double>{0.5});
 }
 
-void draw(Frame const& frame) {
-  auto const radii = ball_radii(frame.volume, frame.body, frame.dimension);
-  auto const values = picture_values(frame.values, frame.info.components);
+void draw(FrameReader const& frame) {
+  auto const points = frame.positions();
+  auto const body = frame.bodies();
+  auto const volume = frame.values("Volume"), stored = frame.values("Pressure");
+  FieldInfo const info = frame.info("Pressure");
+  auto const radii = ball_radii(std::vector<double>(volume.begin(), volume.end()), body, frame.dimension());
+  auto const values = picture_values(std::vector<double>(stored.begin(), stored.end()), info.components);
   PictureStyle const style{200, 200, {30, 20}, {}};
   Window window;
-  window.include(style.view, frame.points, radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end()));
-  PictureData const data{frame.points,    radii,  values,     picture_label("Pressure", frame.info.components),
-                         frame.info.unit, "fuzz", frame.time, frame.dimension};
+  window.include(style.view, points, radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end()));
+  PictureData const data{points,    radii,  values,       picture_label("Pressure", info.components),
+                         info.unit, "fuzz", frame.time(), frame.dimension()};
   draw_picture(data, style, window);
 }
 
@@ -64,7 +68,7 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
     scratch.seal();
   }
   try {
-    draw(read_frame(scratch.path(), "Pressure"));
+    draw(FrameReader(scratch.path()));
   } catch (FileError const&) {
   } catch (InputError const&) {
   }

@@ -41,7 +41,9 @@ class ScratchFile {
   void seal() const {
     std::ifstream in(path_, std::ios::binary);
     std::string const text{std::istreambuf_iterator<char>(in), {}};
-    std::ofstream(path_, std::ios::binary | std::ios::app) << checksum_trailer_of(std::as_bytes(std::span(text)));
+    CheckSum sum;
+    sum.add(text);
+    std::ofstream(path_, std::ios::binary | std::ios::app) << checksum_trailer_of(sum, text.size());
   }
 
  private:

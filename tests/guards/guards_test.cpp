@@ -214,15 +214,15 @@ TEST(OverlapGuard, WarnsAboveOneSpacing) {
 TEST(StrainDriftGuard, WarnsAndStops) {
   auto const with = [](double most) {
     Script s;
-    s.more = [=](double t) { return std::vector<std::pair<std::string, double>>{{"parting", most * t}}; };
+    s.more = [=](double t) { return std::vector<std::pair<std::string, double>>{{"strain_drift", most * t}}; };
     return run(s);
   };
   EXPECT_TRUE(with(0.04).of.summary.warnings.empty());
-  expect_parts(with(0.1).all(), {"the strain of the cells parted from that of their stress by 0.1 (limit 0.05)"});
+  expect_parts(with(0.1).all(), {"the strain of cells differs from that of their stress by 0.1 (limit 0.05)"});
   Outcome const o = with(0.5);
   EXPECT_EQ(o.of.ending, RunStatus::failed);
   EXPECT_NEAR(o.of.summary.end_time, 0.41, 0.02);
-  expect_parts(o.of.failure, {"the strain of cells has parted from their stress, strain without stress = 0.2"});
+  expect_parts(o.of.failure, {"the strain of cells is inconsistent with their stress, strain without stress = 0.2"});
 }
 
 // ---- loads that follow their face
@@ -238,7 +238,7 @@ Outcome run_under_load(Expression const& pressure, std::function<double(double)>
   load.name = "push";
   load.body = of.spec.bodies[0].name;
   load.kind = LoadSpec::Kind::pressure;
-  load.follows = true;
+  load.follower = true;
   load.value[0] = pressure;
   TemporaryFolder const folder;
   return run(of, folder / "r");
@@ -300,7 +300,7 @@ TEST(ProximityGuard, WarnsOfABodyThatGoesThroughAnother) {
   Outcome const o = by(3.9);
   expect_parts(o.all(), {"bodies go through each other: at t = 1 s particle ", "of body 'left'", "of body 'right'",
                          "was 0.1 spacings from"});
-  EXPECT_NEAR(o.guards["strangers"]["nearest"].get<double>(), 0.1, 1e-9);
+  EXPECT_NEAR(o.guards["proximity"]["nearest"].get<double>(), 0.1, 1e-9);
   EXPECT_TRUE(by(1.4).of.summary.warnings.empty());  // 0.6 spacings of distance
 }
 
@@ -338,7 +338,7 @@ TEST(ProximityGuard, LeavesBodiesThatTurnOrAreCrushedAlone) {
   };
   Outcome const turned = run(s, plate);
   EXPECT_TRUE(turned.of.summary.warnings.empty());
-  EXPECT_GT(turned.guards["strangers"]["searches"].get<double>(), 0);
+  EXPECT_GT(turned.guards["proximity"]["searches"].get<double>(), 0);
   s.displacement = [&](std::size_t i, double t) {
     return Point{30 * t * (plate.X[i][0] - 2.5), -0.95 * t * plate.X[i][1], 0};
   };
@@ -366,7 +366,7 @@ TEST(Guards, OfAResumedRunSayTheSame) {
   Script s = rising(1.08);
   s.jacobian = [](std::size_t i, double t) { return i == 9 ? 1 - 0.9 * t : 1; };
   s.more = [](double t) {
-    return std::vector<std::pair<std::string, double>>{{"contact_overlap", 2 * t}, {"parting", 0.1 * t}};
+    return std::vector<std::pair<std::string, double>>{{"contact_overlap", 2 * t}, {"strain_drift", 0.1 * t}};
   };
   s.displacement = [](std::size_t i, double t) { return Point{i < 9 ? 3.8 * t : 0, 0, 0}; };
   s.loss = [](double t) { return 30 * t; };

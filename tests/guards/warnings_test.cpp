@@ -136,16 +136,17 @@ TEST(Warnings, SettingsThatJstSphIgnores) {
 }
 
 TEST(Warnings, SettingsThatTaylorSphIgnores) {
-  std::string const estimates = ", exchange = \"estimates\"", on = estimates + ", momentum_projection = \"on\"",
+  std::string const estimates = ", exchange = \"kernel_sums\"", on = estimates + ", momentum_projection = \"on\"",
                     boxes = ", virtual_particles = \"lattice_cells\"";
   expect_ignored({
       {"momentum_projection", taylor(", momentum_projection = \"on\""), taylor(on)},
-      {"gradient", taylor(", gradient = \"printed\""), taylor(estimates + ", gradient = \"printed\"")},
+      {"gradient", taylor(", gradient = \"published\""), taylor(estimates + ", gradient = \"published\"")},
       {"kernel", taylor(", kernel = \"wendland_c2\""), taylor(estimates + ", kernel = \"wendland_c2\"")},
       {"smoothing_length", taylor(", smoothing_length = 1"), taylor(estimates + ", smoothing_length = 1")},
       {"hourglass_filter", taylor(", hourglass_filter = 0.2"), taylor(estimates + ", hourglass_filter = 0.2")},
-      {"cell_memory", taylor(estimates + ", cell_memory = 0.1"), taylor(", cell_memory = 0.1")},
-      {"cell_memory", taylor(", configuration = \"fixed\", cell_memory = 0.1"), taylor(", cell_memory = 0.1")},
+      {"stress_retention", taylor(estimates + ", stress_retention = 0.1"), taylor(", stress_retention = 0.1")},
+      {"stress_retention", taylor(", configuration = \"fixed\", stress_retention = 0.1"),
+       taylor(", stress_retention = 0.1")},
       {"hourglass_stiffness", taylor(", hourglass_stiffness = 0.1"), taylor(boxes + ", hourglass_stiffness = 0.1")},
       {"momentum_projection", taylor(on, support), taylor(on)},
       {"momentum_projection", taylor(on + ", configuration = \"fixed\""), taylor(on)},
@@ -167,13 +168,13 @@ TEST(Warnings, SettingsThatAdaptleIgnores) {
   expect_ignored({
       {"convert_strain", adaptle(lagrangian + ", convert_strain = 1"), adaptle(", convert_strain = 1")},
       {"convert_damage", adaptle(eulerian + ", convert_damage = 0.5"), adaptle(", convert_damage = 0.5", "", failing)},
-      {"tether", adaptle(patch + ", tether = 2"), adaptle(", tether = 2")},
+      {"conversion_separation", adaptle(patch + ", conversion_separation = 2"), adaptle(", conversion_separation = 2")},
       {"conversion_radius", adaptle(lagrangian + ", conversion_radius = 1"), adaptle(", conversion_radius = 1")},
       {"jacobian_max", adaptle(lagrangian + ", jacobian_max = 2"), adaptle(patch + ", jacobian_max = 2")},
       {"blend", adaptle(", blend = 2"), adaptle(patch + ", blend = 2")},
-      {"blend", adaptle(patch + ", blend = 2, interface = \"printed\""), adaptle(patch + ", blend = 2")},
+      {"blend", adaptle(patch + ", blend = 2, interface = \"published\""), adaptle(patch + ", blend = 2")},
       {"hourglass", adaptle(eulerian + ", hourglass = 0.1"), adaptle(", hourglass = 0.1")},
-      {"interface", adaptle(eulerian + ", interface = \"printed\""), adaptle(", interface = \"printed\"")},
+      {"interface", adaptle(eulerian + ", interface = \"published\""), adaptle(", interface = \"published\"")},
       {"artificial_stress", adaptle(lagrangian + ", artificial_stress = 0.2"), adaptle(", artificial_stress = 0.2")},
       {"artificial_stress_exponent", adaptle(", artificial_stress = 0, artificial_stress_exponent = 3"),
        adaptle(", artificial_stress_exponent = 3")},
@@ -183,8 +184,8 @@ TEST(Warnings, SettingsThatAdaptleIgnores) {
       {"viscosity", adaptle(", alpha = 0, beta = 0, viscosity = \"balsara\""), adaptle(", viscosity = \"balsara\"")},
       {"alpha", adaptle(eulerian + ", correction = \"none\", viscosity = \"riemann\", alpha = 2"),
        adaptle(eulerian + ", alpha = 2")},
-      {"initial_pressure_lasts", adaptle(", initial_pressure_lasts = \"one_step\""),
-       adaptle(", initial_pressure_lasts = \"one_step\", initial_pressure = \"1\"")},
+      {"initial_pressure_duration", adaptle(", initial_pressure_duration = \"one_step\""),
+       adaptle(", initial_pressure_duration = \"one_step\", initial_pressure = \"1\"")},
   });
 }
 

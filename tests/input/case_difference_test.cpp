@@ -51,7 +51,7 @@ TEST(CaseDifference, CommentsAndLayoutDoNotCount) {
 }
 
 TEST(CaseDifference, OnlyWhatLeavesTheStateAsItIsMayChange) {
-  for (char const* key : {"run.end", "run.threads", "run.machine", "run.guards.energy", "run.repartition",
+  for (char const* key : {"run.end", "run.threads", "run.instruction_set", "run.guards.energy", "run.repartition",
                           "output.frames.every", "output.pictures", "quantity", "quantity.q.take"})
     EXPECT_TRUE(may_change_on_resume(key)) << key;
   for (char const* key : {"run", "run.cfl", "run.max_step", "run.ending", "title", "constants.L", "body.b.name",

@@ -50,7 +50,7 @@ TEST(Identity, IsOfEverythingThatResultsDependOn) {
   EXPECT_EQ(with({"run.threads=1"}).run, first.run);
   EXPECT_NE(with({"run.end=\"21 us\""}).run, first.run);
   bool const is_scalar = first.backend.starts_with("scalar");
-  EXPECT_EQ(with({"run.machine=scalar"}).run == first.run, is_scalar);
+  EXPECT_EQ(with({"run.instruction_set=scalar"}).run == first.run, is_scalar);
   write_whole_file(folder / "c.toml", std::string("# comment\n") + cloud_case);
   EXPECT_EQ(with({}).run, first.run);
   write_cloud(folder / "c.csv", 5);

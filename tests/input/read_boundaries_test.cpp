@@ -112,15 +112,15 @@ TEST(ReadBoundaries, OnlyTheSelectedPartOfAFaceIsLoaded) {
 
 TEST(ReadBoundaries, MirrorsAreFaces) {
   CaseSpec const spec = read(
-      "[[mirror]]\nbody = \"column\"\nface = \"-x\"\n[[mirror]]\nbody = \"column\"\nskew = true\nface = "
+      "[[mirror]]\nbody = \"column\"\nface = \"-x\"\n[[mirror]]\nbody = \"column\"\nantisymmetric = true\nface = "
       "\"+z\"\n");
   ASSERT_EQ(spec.mirrors.size(), 2u);
   EXPECT_EQ(spec.mirrors[0].face.axis, 0);
   EXPECT_FALSE(spec.mirrors[0].face.upper);
   EXPECT_EQ(spec.mirrors[1].face.axis, 2);
   EXPECT_TRUE(spec.mirrors[1].face.upper);
-  EXPECT_FALSE(spec.mirrors[0].skew);
-  EXPECT_TRUE(spec.mirrors[1].skew);
+  EXPECT_FALSE(spec.mirrors[0].antisymmetric);
+  EXPECT_TRUE(spec.mirrors[1].antisymmetric);
 }
 
 TEST(ReadBoundaries, SettingsReachThem) {

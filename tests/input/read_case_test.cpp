@@ -185,7 +185,7 @@ labels = false
 TEST(ReadCase, RunSettingsAreRead) {
   CaseSpec const spec = read(sample_with("end = \"0.5 s\"",
                                          "end = \"0.5 s\"\ncfl = 0.3\nmax_step = \"10 us\"\nmin_step = \"1 ns\"\n"
-                                         "threads = 2\nmachine = \"v3\""));
+                                         "threads = 2\ninstruction_set = \"v3\""));
   EXPECT_DOUBLE_EQ(spec.run.cfl, 0.3);
   EXPECT_DOUBLE_EQ(spec.run.max_step, 1e-5);
   EXPECT_DOUBLE_EQ(spec.run.min_step, 1e-9);

@@ -22,9 +22,9 @@ TEST(ReadGuards, AreOnWithTheLimitsOfTheManual) {
   EXPECT_EQ(g.dissipation, 0.1);
   EXPECT_EQ(g.jacobian, (std::array{0.3, 3.0}));
   EXPECT_EQ(g.overlap, 1);
-  EXPECT_EQ(g.strangers, 0.5);
-  EXPECT_EQ(g.parting_warn, 0.05);
-  EXPECT_EQ(g.parting_stop, 0.2);
+  EXPECT_EQ(g.proximity, 0.5);
+  EXPECT_EQ(g.strain_drift_warn, 0.05);
+  EXPECT_EQ(g.strain_drift_stop, 0.2);
   EXPECT_EQ(g.step_warn, 1e-3);
   EXPECT_EQ(g.step_stop, 0);
   EXPECT_EQ(g.small_strain_warn, 0.02);
@@ -35,16 +35,16 @@ TEST(ReadGuards, AreOnWithTheLimitsOfTheManual) {
 TEST(ReadGuards, TakeLimitsAndOff) {
   GuardLimits const g = limits_of(
       "guards = { energy_rise_warn = \"2 %\", energy_rise_stop = \"off\", dissipation = 0.5, jacobian = [0.1, 20], "
-      "overlap = \"off\", strangers = \"off\", parting_warn = 0.1, parting_stop = 1 }");
+      "overlap = \"off\", proximity = \"off\", strain_drift_warn = 0.1, strain_drift_stop = 1 }");
   EXPECT_TRUE(g.on);
   EXPECT_DOUBLE_EQ(g.energy_rise_warn, 0.02);
   EXPECT_TRUE(std::isinf(g.energy_rise_stop));
   EXPECT_EQ(g.dissipation, 0.5);
   EXPECT_EQ(g.jacobian, (std::array{0.1, 20.0}));
   EXPECT_TRUE(std::isinf(g.overlap));
-  EXPECT_EQ(g.strangers, 0);
-  EXPECT_EQ(g.parting_warn, 0.1);
-  EXPECT_EQ(g.parting_stop, 1);
+  EXPECT_EQ(g.proximity, 0);
+  EXPECT_EQ(g.strain_drift_warn, 0.1);
+  EXPECT_EQ(g.strain_drift_stop, 1);
   EXPECT_TRUE(std::isinf(limits_of("guards = { jacobian = \"off\" }").jacobian[1]));
   EXPECT_FALSE(limits_of("guards = \"off\"").on);
 }

@@ -89,10 +89,10 @@ TEST(ReadContact, LawsHaveTheirNumbers) {
   EXPECT_EQ(kernel.scale, 2);
   EXPECT_EQ(kernel.closing_speed, 3000);
   EXPECT_EQ(kernel.exponent, 6);
-  ContactSpec const as_published = contact("law = \"printed\"\nstiffness = \"2 MPa/mm^2\"", 2);
+  ContactSpec const as_published = contact("law = \"published\"\nstiffness = \"2 MPa/mm^2\"", 2);
   EXPECT_EQ(as_published.law, Law::as_published);
   EXPECT_DOUBLE_EQ(as_published.stiffness, 2e12);
-  EXPECT_EQ(contact("law = \"printed\"\nstiffness = 1e16").stiffness, 1e16);
+  EXPECT_EQ(contact("law = \"published\"\nstiffness = 1e16").stiffness, 1e16);
 }
 
 /// A block of 5 x 5 (x 5) particles on [0, 1]^D, perhaps displaced.

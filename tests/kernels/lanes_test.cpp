@@ -51,4 +51,4 @@ TEST(KernelsOnLanes, VanishExactlyFarAway) {
 }
 
 }  // namespace
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -82,4 +82,4 @@ TEST(PowerMinusThirdOnLanes, DoesNotDependOnTheOtherLanes) {
 }
 
 }  // namespace
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

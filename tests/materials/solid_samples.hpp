@@ -124,4 +124,4 @@ inline SymMat<3> deviator_of(double mises) {
   return S;
 }
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -62,4 +62,4 @@ TEST(Select, TakesEachLaneByItsOwnCondition) {
 }
 
 }  // namespace
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -91,7 +91,7 @@ TEST(Fragment, IsTheLargestCluster) {
   spec.link = 1.8;
   double const vx = (0 * 1 + 1 * 2 + 2 * 3 + 3 * 4) / 10.0;
   expect_near(evaluate(spec, weighted(), debris), {4, 4, 10, vx, 2, -1, 3, 1, 0, 4, 13.75, std::sqrt(14.1875) / 13.75});
-  spec.least_particles = 3;  // volumes 10 and 18
+  spec.min_particles = 3;  // volumes 10 and 18
   expect_near(evaluate(spec, weighted(), debris), {4, 4, 10, vx, 2, -1, 3, 1, 0, 2, 14, 4.0 / 14});
   EXPECT_EQ(Probe(spec, weighted()).columns()[2].name, "p.fragment_volume");
   EXPECT_EQ(Probe(spec, weighted()).columns()[3].unit, "m/s");
@@ -103,7 +103,7 @@ TEST(Fragment, MayBeTheLargestThatIsNotAttached) {
   spec.fragment = ProbeSpec::Fragment::largest_free;
   spec.anchored_where = Expression("X < 0.5");
   double const vx = (4 * 5 + 5 * 6 + 6 * 7) / 18.0;
-  spec.least_particles = 2;  // volumes 10, 18 and 17
+  spec.min_particles = 2;  // volumes 10, 18 and 17
   double const spread = std::sqrt(38.0 / 3) / 15;
   expect_near(evaluate(spec, weighted(), debris), {4, 3, 18, vx, 2, -1, 2, 1, 1, 3, 15, spread});
   spec.near_axis = 1.2;

@@ -44,7 +44,7 @@ TEST(AdaptleMessages, PlaneStressIsForTwoDimensions) {
 }
 
 TEST(AdaptleMessages, PairsOfBodiesShareTheirSettings) {
-  for (auto const& [name, first, other] : {std::array<std::string, 3>{"interface", "owner", "printed"},
+  for (auto const& [name, first, other] : {std::array<std::string, 3>{"interface", "owner", "published"},
                                            {"correction", "material", "mixed"},
                                            {"viscosity", "compression", "balsara"},
                                            {"viscosity_form", "auto", "central"},
@@ -143,7 +143,8 @@ TEST(AdaptleMessages, SupportsAreAlongAxes) {
 TEST(AdaptleMessages, UnknownMachinesListThoseThatThereAre) {
   Assembly a = two_boxes();
   a.backend = "v9";
-  EXPECT_TRUE(refusal(a).starts_with("machine 'v9' is unknown or not usable on this processor (usable: auto, "));
+  EXPECT_TRUE(
+      refusal(a).starts_with("instruction set 'v9' is unknown or not usable on this processor (usable: auto, "));
 }
 
 /// A case file with one box; line 7 is its formulation.

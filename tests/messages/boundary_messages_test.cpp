@@ -58,7 +58,7 @@ TEST(BoundaryMessages, LoadsAreOfOneKind) {
   EXPECT_EQ(with("[[load]]\nbody = \"column\"\nbody_force = [0, 0, 0]\nacceleration = [0, 0, 0]\n"),
             "case.toml:23:1: load has 2 of traction, pressure, body_force, acceleration (allowed: one) - keep one");
   EXPECT_EQ(with("[[load]]\nbody = \"column\"\nforce = [0, 0, 0]\nbody_force = [0, \"1 Pa\", 0]\n"),
-            "case.toml:25:1: \"force\" is not a key of load (allowed: name, body, where, traction, pressure, follows, "
+            "case.toml:25:1: \"force\" is not a key of load (allowed: name, body, where, traction, pressure, follower, "
             "face, patch, body_force, acceleration, until) - write \"traction\"\n"
             "case.toml:26:18: load.body_force[1] cannot be read: \"1 Pa\" is not a force per volume (expected a unit "
             "such as N/m^3)");
@@ -95,8 +95,8 @@ TEST(BoundaryMessages, PressuresActOnFacesAndMayFollowThem) {
       with("[[load]]\nbody = \"column\"\npressure = \"1/X\"\nface = \"+y\"\n"),
       "case.toml:25:12: load.pressure, formula \"1/X\" is inf at X = (0, 6, -0.5) m of body \"column\" (allowed: a "
       "finite number at every particle)");
-  EXPECT_EQ(with("[[load]]\nbody = \"column\"\ntraction = [0, 1, 0]\nface = \"+y\"\nfollows = true\n"),
-            "case.toml:27:11: load.follows is used only by a pressure - remove it");
+  EXPECT_EQ(with("[[load]]\nbody = \"column\"\ntraction = [0, 1, 0]\nface = \"+y\"\nfollower = true\n"),
+            "case.toml:27:12: load.follower is used only by a pressure - remove it");
 }
 
 TEST(BoundaryMessages, NamesThatColumnsBeginWithBelongToOneSection) {

@@ -27,12 +27,10 @@ std::string shaped(std::string const& shape, std::string const& formulation = "j
 }
 
 TEST(ContactMessages, FormulationsWithoutContactSayWhoKnowsIt) {
-  FormulationInfo const advection = *find_formulation("jst_advection");
-  EXPECT_EQ(
-      refusal(advection, "contact").find("the formulation \"jst_advection\" knows no contact (allowed: contact in "),
-      0U);
+  FormulationInfo const other{"other", {}, {}, {}, {}};
+  EXPECT_EQ(refusal(other, "contact").find("the formulation \"other\" knows no contact (allowed: contact in "), 0U);
   for (char const* who : {"nodal", "jst_sph", "taylor_sph", "adaptle"})
-    EXPECT_NE(refusal(advection, "contact").find(who), std::string::npos) << who;
+    EXPECT_NE(refusal(other, "contact").find(who), std::string::npos) << who;
 }
 
 std::string two(std::string const& a, std::string const& b, std::string const& more) {
@@ -54,11 +52,12 @@ TEST(ContactMessages, FrictionNeedsTwoSurfaces) {
   EXPECT_EQ(two("nodal", "jst_sph", friction), "");
   EXPECT_EQ(two("taylor_sph", "nodal", friction), "");
   EXPECT_EQ(two("adaptle", "nodal", ""), "") << "they meet by colour";
-  EXPECT_EQ(two("adaptle", "nodal", friction),
-            "case.toml:15:12: contact.friction has nothing to act on: body \"a\" has no surface, particles of adaptle "
-            "that may turn Eulerian or be deleted have no surface; description = \"total_lagrangian\" without failed = "
-            "\"delete\" keeps it (allowed: nodal, jst_sph, taylor_sph and total-Lagrangian adaptle, without skew "
-            "mirrors) - remove it, or change the body");
+  EXPECT_EQ(
+      two("adaptle", "nodal", friction),
+      "case.toml:15:12: contact.friction has nothing to act on: body \"a\" has no surface, particles of adaptle "
+      "that may turn Eulerian or be deleted have no surface; description = \"total_lagrangian\" without failed = "
+      "\"delete\" keeps it (allowed: nodal, jst_sph, taylor_sph and total-Lagrangian adaptle, without antisymmetric "
+      "mirrors) - remove it, or change the body");
   EXPECT_EQ(two("adaptle", "nodal", "[[contact]]\nbetween = [\"a\", \"b\"]\nscale = 2\n"), "");
   EXPECT_NE(two("adaptle", "nodal", "[[contact]]\nbetween = [\"a\", \"b\"]\nfriction = 0.1\n")
                 .find("contact.between: body \"a\" has no surface by which others could push it"),
@@ -71,28 +70,30 @@ TEST(ContactMessages, FrictionNeedsTwoSurfaces) {
 
 // Bodies that nothing keeps apart are refused, unless they are not to meet.
 TEST(ContactMessages, WhatCannotMeetIsRefused) {
-  std::string const skew = "[[mirror]]\nbody = \"a\"\nface = \"-x\"\nskew = true\n";
-  EXPECT_EQ(
-      two("jst_sph", "nodal", skew),
-      "case.toml:8:15: body \"a\": nothing keeps it apart from \"b\" (it has skew mirror planes), so that they "
-      "would pass through one another (allowed: nodal, jst_sph, taylor_sph and total-Lagrangian adaptle, without "
-      "skew mirrors) - change the body; or say contact = \"none\", or law = \"none\" in [[contact]] between them, "
-      "if they are not to meet");
+  std::string const skew = "[[mirror]]\nbody = \"a\"\nface = \"-x\"\nantisymmetric = true\n";
+  EXPECT_EQ(two("jst_sph", "nodal", skew),
+            "case.toml:8:15: body \"a\": nothing keeps it apart from \"b\" (it has antisymmetric mirror planes), so "
+            "that they "
+            "would pass through one another (allowed: nodal, jst_sph, taylor_sph and total-Lagrangian adaptle, without "
+            "antisymmetric mirrors) - change the body; or say contact = \"none\", or law = \"none\" in [[contact]] "
+            "between them, "
+            "if they are not to meet");
   EXPECT_EQ(two("jst_sph", "nodal", skew + "[contact]\nlaw = \"none\"\n"), "");
   EXPECT_EQ(two("jst_sph", "nodal", skew + "[[contact]]\nbetween = [\"b\", \"a\"]\nlaw = \"none\"\n"), "");
 }
 
-// Estimates hold free surfaces free of stress.
-TEST(ContactMessages, EstimatesOfTaylorFeelNobody) {
-  std::string const estimates = "taylor_sph\", exchange = \"estimates", fixed = "taylor_sph\", configuration = \"fixed";
-  EXPECT_NE(
-      two(estimates, "nodal", "").find("body \"a\": nothing keeps it apart from \"b\" (estimates of taylor_sph hold"),
-      std::string::npos);
+// Kernel sums hold free surfaces free of stress.
+TEST(ContactMessages, KernelSumsOfTaylorHaveNoContact) {
+  std::string const kernel_sums = "taylor_sph\", exchange = \"kernel_sums",
+                    fixed = "taylor_sph\", configuration = \"fixed";
+  EXPECT_NE(two(kernel_sums, "nodal", "")
+                .find("body \"a\": nothing keeps it apart from \"b\" (kernel sums of taylor_sph hold"),
+            std::string::npos);
   EXPECT_NE(two("nodal", fixed, "").find("body \"b\": nothing keeps it apart from \"a\""), std::string::npos);
   EXPECT_EQ(two(fixed + "\", exchange = \"adjoint", "nodal", ""), "");
   EXPECT_EQ(two(fixed, "nodal", "[contact]\nlaw = \"none\"\n"), "");
   EXPECT_NE(two(fixed, "nodal", "[[tie]]\nname = \"glue\"\nbetween = [\"a\", \"b\"]\n")
-                .find("cannot hold body \"a\": estimates"),
+                .find("cannot hold body \"a\": kernel sums"),
             std::string::npos);
 }
 
@@ -105,7 +106,7 @@ TEST(ContactMessages, BodiesThatMeetShareTheirMirrors) {
   EXPECT_EQ(two("jst_sph", "jst_sph", mirror("a", "-y")), "") << "the other one stays on its side";
   EXPECT_EQ(two("jst_sph", "jst_sph", mirror("a", "-x")),
             "case.toml:16:8: the mirror plane of body \"a\", x = 0 m, touches body \"b\", which is no mirror there "
-            "(allowed: bodies that meet have the same mirror planes, or stay off them) - give both the mirror, or "
+            "(allowed: bodies in contact have the same mirror planes, or stay off them) - give both the mirror, or "
             "neither");
   EXPECT_NE(two("jst_sph", "jst_sph", mirror("b", "-y")).find("cuts through body \"a\""), std::string::npos);
   EXPECT_NE(
@@ -171,11 +172,11 @@ TEST(ContactMessages, PairsHaveKeysOfTheirOwn) {
 }
 
 TEST(ContactMessages, RigidShapesWithoutContactPushNobody) {
-  EXPECT_EQ(
-      message_of("contact = \"none\"\n" + sample_case() +
-                 "[[rigid]]\nname = \"wall\"\nplane = { point = [0, -1, 0], normal = [0, 1, 0] }\n"),
-      "case.toml:24:1: the rigid shape \"wall\" pushes nobody, since contact.law is \"none\" (allowed: one of them) "
-      "- remove one");
+  EXPECT_EQ(message_of("contact = \"none\"\n" + sample_case() +
+                       "[[rigid]]\nname = \"wall\"\nplane = { point = [0, -1, 0], normal = [0, 1, 0] }\n"),
+            "case.toml:24:1: the rigid shape \"wall\" has no contact with any body, since contact.law is \"none\" "
+            "(allowed: one of them) "
+            "- remove one");
 }
 
 TEST(ContactMessages, FrictionAtRestNeedsASpeed) {
@@ -255,22 +256,23 @@ TEST(ContactMessages, RigidShapesMoveAsOne) {
 
 TEST(ContactMessages, EachLawHasItsNumbers) {
   EXPECT_EQ(contact("law = \"lineer\""),
-            "case.toml:24:7: contact.law is \"lineer\" (allowed: kernel, linear, printed, surface, "
+            "case.toml:24:7: contact.law is \"lineer\" (allowed: kernel, linear, published, surface, "
             "none) - did you mean \"linear\"?");
   EXPECT_EQ(contact("stiffness = 1"),
-            "case.toml:24:13: contact.stiffness is used only by the law \"printed\" - remove it");
+            "case.toml:24:13: contact.stiffness is used only by the law \"published\" - remove it");
   EXPECT_EQ(
-      contact("law = \"printed\""),
-      "case.toml:23:1: contact needs \"stiffness\" (the constant of the law \"printed\", in Pa/m^3) - add stiffness "
+      contact("law = \"published\""),
+      "case.toml:23:1: contact needs \"stiffness\" (the constant of the law \"published\", in Pa/m^3) - add stiffness "
       "= \"1e16 Pa/m^3\"");
-  EXPECT_EQ(contact("law = \"printed\"\nstiffness = -1\nclosing_speed = 5"),
+  EXPECT_EQ(contact("law = \"published\"\nstiffness = -1\nclosing_speed = 5"),
             "case.toml:25:13: contact.stiffness is -1 Pa/m^3 (allowed: above 0)\n"
             "case.toml:26:17: contact.closing_speed is used only by the law \"kernel\" - remove it");
   EXPECT_EQ(contact("law = \"linear\"\nexponent = 4"),
-            "case.toml:25:12: contact.exponent is used only by the law \"kernel\" or \"printed\" - remove it");
-  EXPECT_EQ(contact("law = \"none\"\nscale = 2"),
-            "case.toml:25:9: contact.scale is used only by the law \"kernel\", \"linear\", \"printed\" or \"surface\" "
-            "- remove it");
+            "case.toml:25:12: contact.exponent is used only by the law \"kernel\" or \"published\" - remove it");
+  EXPECT_EQ(
+      contact("law = \"none\"\nscale = 2"),
+      "case.toml:25:9: contact.scale is used only by the law \"kernel\", \"linear\", \"published\" or \"surface\" "
+      "- remove it");
 }
 
 TEST(RoundBodyMessages, ArrangementsAreForDiscs) {

@@ -40,14 +40,14 @@ run = { end = 1 }
 name = "row"
 shape = { box = { min = [0], max = [2] }, particles = [9] }
 material = { law = "linear_elastic", density = 1000, youngs_modulus = 1e6, poissons_ratio = 0.3 }
-formulation = { name = "jst_advection" }
+formulation = { name = "taylor_sph" }
 [[mirror]]
 body = "row"
 face = "+x"
 )toml"),
-            "case.toml:8:1: " + refused("jst_advection", "mirrors"));
-  EXPECT_TRUE(refused("jst_advection", "mirrors")
-                  .starts_with("the formulation \"jst_advection\" knows no mirrors (allowed: mirrors in jst_sph"));
+            "case.toml:8:1: " + refused("taylor_sph", "mirrors"));
+  EXPECT_TRUE(refused("taylor_sph", "mirrors")
+                  .starts_with("the formulation \"taylor_sph\" knows no mirrors (allowed: mirrors in jst_sph"));
 }
 
 TEST(CrackMessages, CracksAreInPlaneBoxes) {

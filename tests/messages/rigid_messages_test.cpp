@@ -97,7 +97,8 @@ TEST(RigidMessages, FreeShapesNeedSurfacesAndPartners) {
   text = replaced(text, R"(name = "jst_sph", variables = "pF", eps4_momentum = 0.125)", "name = \"adaptle\"");
   std::string const surfaces =
       "(allowed: bodies with a surface: nodal, jst_sph, taylor_sph, or adaptle with description = "
-      "\"total_lagrangian\", without skew mirrors, with a contact.law) - change the body, or let the shape be fixed or "
+      "\"total_lagrangian\", without antisymmetric mirrors, with a contact.law) - change the body, or let the shape be "
+      "fixed or "
       "driven without turning";
   EXPECT_NE(message_of(text + stone)
                 .find("nothing keeps the free rigid shape \"stone\" apart from body \"column\" " + surfaces),

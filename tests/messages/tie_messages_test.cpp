@@ -143,10 +143,11 @@ TEST(TieMessages, BodiesNeedSurfaces) {
       replaced(stack(both), "[\"10 mm\", \"20 mm\"] }, spacing = \"1 mm\", placement = \"cell_centred\" }",
                "[\"10 mm\", \"20 mm\"] }, spacing = \"1 mm\" }");
   std::string const mirrored = on_faces + "[[mirror]]\nbody = \"upper\"\nface = \"-x\"\n";
-  std::string const held = message_of(mirrored + "skew = true\n[contact]\nlaw = \"none\"\n");
+  std::string const held = message_of(mirrored + "antisymmetric = true\n[contact]\nlaw = \"none\"\n");
   EXPECT_NE(
-      held.find("case.toml:15:11: the tie \"tie_0\" cannot hold body \"upper\": it has skew mirror planes (allowed: "
-                "bodies of nodal, jst_sph, taylor_sph and total-Lagrangian adaptle without skew mirrors)"),
+      held.find(
+          "case.toml:15:11: the tie \"tie_0\" cannot hold body \"upper\": it has antisymmetric mirror planes (allowed: "
+          "bodies of nodal, jst_sph, taylor_sph and total-Lagrangian adaptle without antisymmetric mirrors)"),
       std::string::npos)
       << held;
   std::string const thin = replaced(stack(both), "\"20 mm\"] }, spacing", "\"11 mm\"] }, spacing");
@@ -161,8 +162,8 @@ TEST(TieMessages, WhatStaysFreeIsToldOf) {
   EXPECT_EQ(
       warnings.back(),
       "case.toml:16:11: the tie \"tie_0\" holds 5 points, but 11 more that face the other body are farther from "
-      "it than half a spacing, as a gap or an overlap, and stay free - let the bodies touch, or say by where what "
-      "is meant");
+      "it than half a spacing, as a gap or an overlap, and stay free - let the bodies touch, or select the points "
+      "by where");
   EXPECT_EQ(told(both + "where = \"X < 0.001 && Y*0 == 0 && X > 0.0001\""), "");
 }
 

@@ -213,14 +213,9 @@ TEST(CrossSetPairs, RefuseATargetWithoutASmoothingLength) {
   }
 }
 
-TEST(CrossSetPairs, KnowTheirMeanCountAndMemory) {
+TEST(CrossSetPairs, KnowTheirMemory) {
   Sets const few(30, 100, 0.1), many(30, 100, 0.2);
-  CrossSetPairs const narrow = few.pairs(), wide = many.pairs();
-  double sum = 0;
-  for (Index t = 0; t < 30; ++t) sum += wide.count(t);
-  EXPECT_DOUBLE_EQ(wide.mean_count(), sum / 30);
-  EXPECT_GT(wide.bytes(), narrow.bytes());
-  EXPECT_EQ(CrossSetPairs().mean_count(), 0);
+  EXPECT_GT(many.pairs().bytes(), few.pairs().bytes());
 }
 
 TEST(CrossSetPairs, CanBeBuiltAgain) {

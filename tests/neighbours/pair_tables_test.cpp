@@ -63,11 +63,10 @@ TEST(PairTables, OfPatternsHoldThePairsOfABallAndOfASecondBody) {
   expect_same(SeenPairs(set, options, 1), list, dx);
 }
 
-TEST(PairTables, OfAWideLatticeFillMostLanes) {
-  ParticleSet const set = testing::box({4, 1, 1}, {65, 17, 17});
-  SeenPairs const seen(set, {find_kernel("cubic_spline"), 0.05, 0.075, 8, true});
-  EXPECT_GT(seen.pairs.stencil_fill(), 0.75);  // rows of 65: seven of nine groups of eight are within a row
-  EXPECT_LE(seen.pairs.stencil_fill(), 1);
+std::int64_t count(SeenPairs const& seen) {
+  std::int64_t pairs = 0;
+  for (Index a = 0; a < seen.order.particles; ++a) pairs += std::ssize(seen.at(a));
+  return pairs;
 }
 
 TEST(PairTables, OfListsArePaddedToWholeGroupsWithTheParticleItself) {
@@ -85,7 +84,7 @@ TEST(PairTables, OfListsArePaddedToWholeGroupsWithTheParticleItself) {
         EXPECT_LT(t.begin[a + 1] - t.begin[a], static_cast<std::int64_t>(seen.at(a).size()) + 2 * lanes);
       }
       auto const stored = t.begin[seen.order.slots()];
-      EXPECT_EQ(stored, seen.pairs.pair_count() + seen.padding);
+      EXPECT_EQ(stored, count(seen) + seen.padding);
       EXPECT_EQ(lanes > 1, seen.padding > 0);
     }
 }
@@ -99,7 +98,7 @@ TEST(PairTables, OfListsAreTheSameForEveryLaneCount) {
 TEST(PairTables, KnowTheirSize) {
   ParticleSet const set = unit_box(3, 7), jittered = unit_box(3, 7, 0.2);
   SeenPairs const list(jittered, supports(7, 0.9, 1.2));
-  EXPECT_GE(list.pairs.bytes(), static_cast<std::size_t>(list.pairs.pair_count()) * (4 + 8 + 8));
+  EXPECT_GE(list.pairs.bytes(), static_cast<std::size_t>(count(list)) * (4 + 8 + 8));
   SeenPairs const stencil(set, supports(7, 0.9, 1.2, 8));
   EXPECT_GT(stencil.pairs.bytes(), 0U);
   EXPECT_LT(stencil.pairs.bytes(), list.pairs.bytes());

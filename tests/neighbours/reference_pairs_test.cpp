@@ -103,12 +103,6 @@ TEST_P(CorrectedOperators, HaveExactlyThePairsWithinTheSupport) {
   for (Index a = seen.order.particles; a < seen.order.slots(); ++a) EXPECT_TRUE(seen.at(a).empty()) << "padding " << a;
 }
 
-TEST_P(CorrectedOperators, CountTheirPairs) {
-  std::int64_t pairs = 0;
-  for (Index a = 0; a < seen.order.particles; ++a) pairs += std::ssize(seen.at(a));
-  EXPECT_EQ(seen.pairs.pair_count(), pairs);
-}
-
 std::vector<Setting> all_settings() {
   std::vector<Setting> r;
   for (int dimension = 1; dimension <= 3; ++dimension)
@@ -341,7 +335,6 @@ TEST(ReferencePairs, AreTheSameForAnyNumberOfThreads) {
       return std::make_unique<ReferencePairs>(set, set.bodies[0], order, options);
     };
     auto const one = made(1), three = made(3);
-    EXPECT_EQ(one->pair_count(), three->pair_count());
     EXPECT_EQ(one->corrections().kind, three->corrections().kind);
     EXPECT_EQ(one->corrections().C, three->corrections().C);
     EXPECT_EQ(one->corrections().diagonal, three->corrections().diagonal);

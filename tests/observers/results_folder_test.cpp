@@ -70,7 +70,6 @@ TEST(ResultsFolder, LosesNoFilesOfOthersInFoldersOfResults) {
                                          "pictures/Velocity-x-000001.png",
                                          "pictures/Pressure-Damage-000001.png",
                                          "pictures/Pressure-times.png",
-                                         "pictures/Pressure-000002.values",
                                          "checkpoints/000000012.h5",
                                          "checkpoints/failed.h5",
                                          "checkpoints/wall_times.txt",

@@ -7,6 +7,7 @@
 #include "support/fake_formulation.hpp"
 #include "support/places.hpp"
 #include "support/temporary_folder.hpp"
+#include <algorithm>
 #include <csignal>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -70,12 +71,15 @@ TEST(Frames, HoldOnlyTheFieldsAskedFor) {
   TemporaryFolder const folder;
   FrameWriter writer(folder.path(), {"Velocity"}, true);
   write_frames(writer, testing::make_plate(3), {0});
-  Frame const frame = read_frame(folder / "frames/000000.hdf", "Velocity");
-  EXPECT_EQ(frame.field_names, (std::vector<std::string>{"Body", "Id", "Velocity", "Volume"}));
-  EXPECT_EQ(frame.info.components, 3);
-  EXPECT_EQ(frame.info.unit, "m/s");
-  EXPECT_EQ(frame.dimension, 2);
-  EXPECT_FLOAT_EQ(static_cast<float>(frame.values[3 * 3 * 1]), 0.1F);  // v_x = 0.1 Y at particle (0, 1)
+  FrameReader const frame(folder / "frames/000000.hdf");
+  EXPECT_EQ(frame.fields(), (std::vector<std::string>{"Body", "Id", "Velocity", "Volume"}));
+  EXPECT_EQ(frame.info("Velocity").components, 3);
+  EXPECT_EQ(frame.info("Velocity").unit, "m/s");
+  EXPECT_EQ(frame.dimension(), 2);
+  EXPECT_EQ(frame.bodies(), std::vector<int>(9, 0));
+  EXPECT_EQ(frame.positions()[4], (std::array{1.0, 1.0, 0.0}));
+  EXPECT_TRUE(frame.rigid_poses().empty());
+  EXPECT_FLOAT_EQ(frame.values("Velocity")[3 * 3 * 1], 0.1F);  // v_x = 0.1 Y at particle (0, 1)
 }
 
 TEST(Frames, AreRemovedWhenTheyComeAfterTheCheckpoint) {
@@ -93,7 +97,7 @@ TEST(Frames, NameTheFieldsThereAreWhenOneIsMissing) {
   FrameWriter writer(folder.path(), {}, true);
   write_frames(writer, testing::make_plate(3), {0});
   try {
-    read_frame(folder / "frames/000000.hdf", "Presure");
+    FrameReader(folder / "frames/000000.hdf").info("Presure");
     FAIL();
   } catch (InputError const& error) {
     EXPECT_NE(std::string(error.what()).find("has no field 'Presure' (it has Body, CauchyStress,"), std::string::npos)
@@ -105,20 +109,43 @@ TEST(Frames, GiveTheCompressivePressureOfThePressureTheyHold) {
   TemporaryFolder const folder;
   FrameWriter writer(folder.path(), {}, true);
   write_frames(writer, testing::make_plate(3), {0});
-  Frame const stored = read_frame(folder / "frames/000000.hdf", "Pressure"),
-              made = read_frame(folder / "frames/000000.hdf", "CompressivePressure");
-  EXPECT_EQ(made.info.name, "CompressivePressure");
-  EXPECT_EQ(made.info.unit, "Pa");
-  ASSERT_EQ(made.values.size(), stored.values.size());
-  FrameReader const reader(folder / "frames/000000.hdf");
-  auto const single = reader.values("CompressivePressure");
-  for (std::size_t i = 0; i < made.values.size(); ++i) {
-    EXPECT_EQ(made.values[i], -stored.values[i]);
-    EXPECT_EQ(static_cast<double>(single[i]), -stored.values[i]);
-  }
+  FrameReader const frame(folder / "frames/000000.hdf");
+  EXPECT_EQ(frame.info("CompressivePressure").name, "CompressivePressure");
+  EXPECT_EQ(frame.info("CompressivePressure").unit, "Pa");
+  auto const stored = frame.values("Pressure"), made = frame.values("CompressivePressure");
+  ASSERT_EQ(made.size(), stored.size());
+  for (std::size_t i = 0; i < made.size(); ++i) EXPECT_EQ(made[i], -stored[i]);
   hdf5::Reader const file(folder / "frames/000000.hdf");
   EXPECT_EQ(file.text("/VTKHDF/PointData/Pressure", "sign"), "tension positive");
   EXPECT_FALSE(file.has_attribute("/VTKHDF/PointData/VonMisesStress", "sign"));
+}
+
+/// Springs with a field that had another name in the previous release.
+class OldSprings : public Springs {
+ public:
+  using Springs::Springs;
+  std::vector<FieldInfo> fields() const override {
+    auto all = Springs::fields();
+    all.push_back({"LeastJacobian", "1", 1});
+    return all;
+  }
+};
+
+TEST(Frames, OfThePreviousReleaseHaveFieldsOfPresentNames) {
+  TemporaryFolder const folder;
+  FrameWriter writer(folder.path(), {}, true);
+  ParticleSet const set = testing::make_plate(3);
+  OldSprings const springs(set);
+  FieldCache cache(springs, set);
+  writer.write(0, cache);
+  FrameReader const frame(folder / "frames/000000.hdf");
+  EXPECT_TRUE(frame.knows("CellJacobianMin"));
+  auto const fields = frame.fields();
+  EXPECT_EQ(std::count(fields.begin(), fields.end(), "CellJacobianMin"), 1);
+  EXPECT_EQ(std::count(fields.begin(), fields.end(), "LeastJacobian"), 0);
+  EXPECT_EQ(frame.info("CellJacobianMin").name, "CellJacobianMin");
+  EXPECT_EQ(frame.info("CellJacobianMin").components, 1);
+  EXPECT_EQ(frame.values("CellJacobianMin").size(), 9U);
 }
 
 /// In a child, because the limit cannot be lifted again. Exit status 0: as it should be.

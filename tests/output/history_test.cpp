@@ -100,8 +100,29 @@ TEST(History, TellsOfRowsThatAreMissingOrWereChanged) {
   EXPECT_NE(HistoryFile(folder / "history.csv", columns, 0.2, mark).repair_note(), "");
   std::filesystem::remove(folder / "history.csv");
   HistoryFile const anew(folder / "history.csv", columns, 0.2, mark);
-  EXPECT_NE(anew.repair_note().find("the file was missing and begins anew"), std::string::npos) << anew.repair_note();
+  EXPECT_NE(anew.repair_note().find("the file was missing and starts here"), std::string::npos) << anew.repair_note();
   EXPECT_EQ(testing::text_of(folder / "history.csv"), "time,energy\n");
+}
+
+TEST(History, GivesColumnsOfThePreviousReleaseTheirPresentNames) {
+  testing::TemporaryFolder const folder;
+  std::vector<HistoryColumn> const before{{"time", "s"}, {"tie_heat", "J"}, {"stone.turn_z", "rad"}},
+      now{{"time", "s"}, {"tie_dissipation", "J"}, {"stone.rotation_z", "rad"}};
+  HistoryMark mark;
+  {
+    HistoryFile file(folder / "history.csv", before);
+    for (double const t : {0.0, 0.1, 0.2}) file.append({t, 2 * t, 3 * t});
+    mark = file.mark();
+  }
+  HistoryTable const table = read_history(folder / "history.csv");
+  EXPECT_EQ(table.values("tie_dissipation"), (std::vector<double>{0, 0.2, 0.4}));
+  EXPECT_TRUE(table.find("stone.rotation_z"));
+  HistoryFile resumed(folder / "history.csv", now, 0.2, mark);
+  EXPECT_EQ(resumed.repair_note(), "");
+  EXPECT_EQ(resumed.table().rows.size(), 3U);
+  resumed.append({0.3, 1, 2});
+  EXPECT_TRUE(testing::text_of(folder / "history.csv").starts_with("time,tie_dissipation,stone.rotation_z\n0,0,0\n"));
+  EXPECT_EQ(read_history(folder / "history.csv").rows.size(), 4U);
 }
 
 TEST(History, RefusesAFileWithOtherColumns) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/pictures/case_scene.hpp"
 #include "support/sample_case.hpp"
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace piola {
@@ -84,6 +85,19 @@ TEST(Shapes, StandWhereTheirVelocityHasTakenThem) {
   EXPECT_DOUBLE_EQ(shapes[0].centre[0], 2.5);
   EXPECT_DOUBLE_EQ(shapes[0].centre[1], 2);
   EXPECT_NEAR(shapes[0].centre[2], 3.25, 1e-12);  // the integral of 2 t
+}
+
+TEST(Shapes, ThatTurnStandAsTheirPosesSay) {
+  RigidSpec stone;
+  stone.kind = RigidShape::Kind::box;
+  stone.free = true;
+  stone.centre = {7, 8, 9};
+  std::array const pose{3.0, 2.0, 3.0, 0.0, 0.0, 0.4};
+  auto const shapes = shapes_at({stone}, 2, pose);
+  ASSERT_EQ(shapes.size(), 1U);
+  EXPECT_EQ(shapes[0].centre, (std::array{3.0, 2.0, 3.0}));
+  EXPECT_NEAR(shapes[0].edges[0][1], std::sin(0.4), 1e-12);
+  EXPECT_EQ(shapes_at({stone}, 2)[0].centre[0], 7) << "where it started, for want of a pose";
 }
 
 TEST(Warp, EnlargesDisplacementsAndSaysSo) {

@@ -35,7 +35,7 @@ TEST(HistoryPlots, ShowTheLedgerOfWhatIsNotZero) {
 TEST(HistoryPlots, KnowEnergiesOfContactFromFieldsOfTheSameName) {
   EXPECT_EQ(unit_of_column("friction_heat"), "J");  // the field FrictionHeat is in J/m^2
   EXPECT_EQ(unit_of_column("contact_energy"), "J");
-  EXPECT_EQ(unit_of_column("tie_failed"), "1");
+  EXPECT_EQ(unit_of_column("tie_failed_fraction"), "1");
   EXPECT_EQ(unit_of_column("place.friction_heat"), "J/m^2");
 }
 

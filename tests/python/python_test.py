@@ -355,6 +355,32 @@ class Folders(InFolder):
         with self.assertRaises(piola.FileError):
             piola.Results("elsewhere")
 
+    def test_names_of_the_previous_release(self):
+        import h5py
+        case = column(**{"run.machine": "scalar", "body.column.formulation": {"name": "nodal"}})
+        self.assertIn('"machine" is now "instruction_set"', case.check()[0])
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            with piola.Run(case, out="results") as run:
+                run.finish()
+        least, field = run.history["cell_jacobian_min"], run.field("CellJacobianMin")
+        for look in (lambda: run.history["least_jacobian"], lambda: run.field("LeastJacobian"),
+                     lambda: piola.Results("results").history["least_jacobian"],
+                     lambda: piola.Results("results").frames[-1]["LeastJacobian"]):
+            with self.assertRaisesRegex(piola.CaseWarning, "is now 'cell_jacobian_min'|is now 'CellJacobianMin'"):
+                look()
+        history = Path("results/history.csv")
+        history.write_text(history.read_text().replace("cell_jacobian_min", "least_jacobian"))
+        results = piola.Results("results")
+        with h5py.File(results.frames[-1].path, "a") as file:
+            file["VTKHDF/PointData"].move("CellJacobianMin", "LeastJacobian")
+        np.testing.assert_array_equal(results.history["cell_jacobian_min"], least)
+        np.testing.assert_allclose(results.frames[-1]["CellJacobianMin"], field, rtol=1e-6)
+        self.assertIn("CellJacobianMin", results.frames[-1].fields)
+        self.assertEqual(results.frames[-1].units["CellJacobianMin"], "1")
+        with self.assertRaises(KeyError):
+            results.history["nothing"]
+
     def test_units_of_frames(self):
         run = piola.Run(column(), out="results")
         run.finish()

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/report.hpp"
 #include "piola/base/errors.hpp"
-#include "piola/output/frames.hpp"
 #include "piola/report/page.hpp"
 #include "piola/report/page_budget.hpp"
 #include "piola/simulation/run_case.hpp"
@@ -55,11 +54,12 @@ TEST(FrameStatistics, KnowsTheBoxAndTheExtremesOfEachFrame) {
   EXPECT_EQ(survey.outside, 0u);
   ASSERT_EQ(survey.fields.size(), 1u);
   ASSERT_EQ(survey.fields[0].extremes.size(), 3u);
-  Frame const frame = read_frame(run.frames[2].second, "Velocity");
+  FrameReader const frame(run.frames[2].second);
+  auto const v = frame.values("Velocity");
   double most = 0;
-  for (std::size_t i = 0; i < 16; ++i) most = std::max(most, std::hypot(frame.values[3 * i], frame.values[3 * i + 1]));
+  for (std::size_t i = 0; i < 16; ++i) most = std::max<double>(most, std::hypot(v[3 * i], v[3 * i + 1]));
   EXPECT_NEAR(survey.fields[0].extremes[1][1], most, 1e-6 * most);
-  for (auto const& point : frame.points)
+  for (auto const& point : frame.positions())
     for (std::size_t c = 0; c < 3; ++c) {
       EXPECT_LE(survey.low[c], point[c]);
       EXPECT_GE(survey.high[c], point[c]);

@@ -95,7 +95,7 @@ formulation = { name = "jst_sph" }
 [[mirror]]
 body = "second"
 face = "+z"
-skew = true
+antisymmetric = true
 [contact]
 law = "none"
 )");

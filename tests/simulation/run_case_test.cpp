@@ -3,6 +3,7 @@
 #include "piola/base/errors.hpp"
 #include "piola/drawing/image.hpp"
 #include "piola/output/checkpoint.hpp"
+#include "piola/output/frame_reader.hpp"
 #include "piola/output/frames.hpp"
 #include "piola/simulation/run_summary.hpp"
 #include "support/fake_formulation.hpp"
@@ -141,13 +142,51 @@ TEST(RunCase, DrawsAllPicturesWithTheColoursOfTheWholeRun) {
   run(s, folder / "r");
   Image const first = read_png(folder / "r/pictures/Displacement-000000.png");
   EXPECT_EQ(bar_of(first), bar_of(read_png(folder / "r/pictures/Displacement-000003.png")));
-  for (auto const& entry : std::filesystem::directory_iterator(folder / "r/pictures"))
-    EXPECT_EQ(entry.path().extension(), ".png") << "what was kept for the colours is gone";
-
   Simulation given = pictured();
   given.spec.output.pictures.range = std::array{0.0, 1.0};
   run(given, folder / "given");
   EXPECT_NE(bar_of(first), bar_of(read_png(folder / "given/pictures/Displacement-000000.png")));
+}
+
+TEST(RunCase, WritesAFrameForEachPicture) {
+  TemporaryFolder const folder;
+  Simulation both = pictured(), alone = pictured(), failed = pictured();
+  both.spec.output.frames_every = 0.5;
+  run(both, folder / "both");
+  std::vector<double> times;
+  for (auto const& [time, path] : list_frames(folder / "both")) times.push_back(time);
+  ASSERT_EQ(times.size(), 5U) << "one where both are due";
+  EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
+  EXPECT_TRUE(FrameReader(folder / "both/frames/000001.hdf").knows("Velocity"));
+
+  alone.spec.output.frames_every = failed.spec.output.frames_every = 0;
+  run(alone, folder / "alone");
+  EXPECT_EQ(FrameReader(folder / "alone/frames/000004.hdf").fields(),
+            (std::vector<std::string>{"Body", "Displacement", "Id", "Volume"}));
+  for (char const* number : {"000000", "000003", "000004"}) {
+    auto const picture = std::string("pictures/Displacement-").append(number).append(".png");
+    EXPECT_TRUE(text_of(folder / "both" / picture) == text_of(folder / "alone" / picture)) << number;
+  }
+
+  springs(failed).fail_at = 40;
+  EXPECT_EQ(run(failed, folder / "failed").last_picture.filename(), "Displacement-000002.png");
+  EXPECT_TRUE(FrameReader(folder / "failed/frames/000002.hdf").knows("Velocity")) << "the last state has all fields";
+}
+
+TEST(RunCase, DrawsWhatItCanIfAnEarlierFrameIsMissing) {
+  TemporaryFolder const folder;
+  Simulation first = pictured(), second = pictured();
+  std::atomic<int> stop{0};
+  springs(first).stop_at = 57;
+  springs(first).stop = &stop;
+  run(first, folder / "r", false, &stop);
+  std::filesystem::remove(folder / "r/frames/000001.hdf");
+  CaseOutcome const outcome = run(second, folder / "r", true);
+  EXPECT_EQ(outcome.ending, RunStatus::completed);
+  EXPECT_EQ(outcome.last_picture.filename(), "Displacement-000004.png");
+  EXPECT_TRUE(std::any_of(outcome.summary.warnings.begin(), outcome.summary.warnings.end(), [](auto const& warning) {
+    return warning.find("pictures: 1 of 4 frames are not drawn: ") != std::string::npos;
+  }));
 }
 
 TEST(RunCase, DrawsTheSamePicturesAfterAStop) {

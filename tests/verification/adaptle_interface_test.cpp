@@ -45,9 +45,9 @@ double ghost_force(double stretch, std::string const& interface, double blend) {
 /// with a blend of four spacings, nothing in the printed form, and a first order in the stretch; its norm of the stress
 /// is not told.
 TEST(AdaptleInterface, HasGhostForcesOfTheKnownSize) {
-  for (std::string const interface : {"owner", "printed"})
+  for (std::string const interface : {"owner", "published"})
     for (double const blend : {0.0, 4.0}) EXPECT_LT(ghost_force(1, interface, blend), 1e-12) << interface << blend;
-  EXPECT_LT(ghost_force(0.95, "printed", 0), 1e-12);
+  EXPECT_LT(ghost_force(0.95, "published", 0), 1e-12);
   double const sharp = ghost_force(0.95, "owner", 0), soft = ghost_force(0.95, "owner", 4);
   EXPECT_GT(sharp, 1.70e-2 / 1.5);
   EXPECT_LT(sharp, 1.70e-2 * 1.5);
@@ -116,7 +116,7 @@ TEST(AdaptleInterface, AVibratingDiscKeepsEnergyAndMomentumThroughConversions) {
 }
 
 TEST(AdaptleInterface, ThePrintedFormLosesMomentum) {
-  Course const as_published = vibrate("t > 0.5e-6 && X > 2e-4 && Y > -3e-4", "none", "printed");
+  Course const as_published = vibrate("t > 0.5e-6 && X > 2e-4 && Y > -3e-4", "none", "published");
   EXPECT_GT(as_published.momentum, 1e-5);
 }
 

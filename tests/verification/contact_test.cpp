@@ -54,7 +54,7 @@ TEST_P(SurfaceContact, KeepsMomentaAndEnergy) {
       time += dt;
       Diagnostics const d = f->diagnose();
       touched += column(d, "contact_points") > 0 ? 1 : 0;
-      energy = d.total_energy() + column(d, "friction_heat") + column(d, "contact_dissipation") + d.stabilisation_loss;
+      energy = d.total_energy() + column(d, "friction_heat") + column(d, "chatter_damping_loss") + d.stabilisation_loss;
       for (std::size_t c = 0; c < 3; ++c) {
         ASSERT_NEAR(d.linear_momentum[c], before.linear_momentum[c], 1e-11 * size);
         // Eulerian particles keep their angular momentum in the mean alone.
@@ -133,7 +133,7 @@ TEST_P(SurfaceContact, ForcesOfShapesAndSupportsAreTheRateOfMomentum) {
     work = d.external_work;
     if (k == 99) {
       double const kept =
-          (d.total_energy() + column(d, "friction_heat") + column(d, "contact_dissipation") + d.stabilisation_loss) /
+          (d.total_energy() + column(d, "friction_heat") + column(d, "chatter_damping_loss") + d.stabilisation_loss) /
           work;
       EXPECT_LT(kept, 1.01);
       // What is pushed by the plane and damps, see above, loses while it is alone already.

@@ -58,7 +58,7 @@ Relaxed relax(Assembly const& a, double end = 10, double limit = 1e-4) {
   RunSpec run;
   run.end = end;
   run.relax = true;
-  run.rest = limit;
+  run.relax_tolerance = limit;
   Relaxation relaxation(run, a.particles, rho);  // of a unit box
   std::atomic<int> const stop{0};
   WallLimit wall(WallLimit::none, WallLimit::Clock::now());

@@ -146,7 +146,7 @@ INSTANTIATE_TEST_SUITE_P(All, TaylorPatchTest, ::testing::ValuesIn(settings()), 
 TEST(TaylorPatchTest, FailsWithThePrintedGradientOnAnIrregularSet) {
   Assembly a = assemble_taylor(unit_box(2, 7, 0.15));
   choose(a, "configuration", "fixed");
-  choose(a, "gradient", "printed");
+  choose(a, "gradient", "published");
   give_velocity(a, [](Point const& X) { return Point{X[0], 0, 0}; });
   auto const f = make_formulation(a);
   double const dt = f->stable_time_step();

@@ -353,6 +353,7 @@ TEST(ReadChecks, FieldsAreComparedAtATime) {
   std::string const rest = "reference = 1\nkind = \"below\"\nevidence = \"own refinement\"\nrelative_to = \"5\"\n";
   std::string const field = rest + "as = \"field_error\"\nfield = \"Pressure\"\n";
   EXPECT_EQ(complaints(field + "time = \"10 ms\"\nwhere = \"Y > 1\"\n"), "");
+  EXPECT_EQ(complaints(rest + "as = \"field_error\"\nfield = \"LeastJacobian\"\ntime = 1\n"), "");
   EXPECT_EQ(complaints(field), ":5:1: check needs 'time' - add it");
   EXPECT_EQ(complaints(field + "time = \"10 m\"\n"),
             ":14:8: check: 'time' has the wrong kind (a time such as \"0.1 s\" is expected) - correct it");

@@ -93,11 +93,11 @@ SlotOrder bisected(ParticleSet const& set, Body const& body, SlotOrder const& or
   std::vector<std::size_t> from(whole);
   std::iota(from.begin(), from.end(), std::size_t{0});
   Bisection(std::move(boxes), reach * spacing, spacing).cut(from, ends, 0);
-  SlotOrder dealt = order;
+  SlotOrder permuted = order;
   for (std::size_t k = 0; k < whole; ++k)
     std::copy_n(order.id.begin() + static_cast<std::ptrdiff_t>(from[k] * leaf), leaf,
-                dealt.id.begin() + static_cast<std::ptrdiff_t>(k * leaf));
-  return dealt;
+                permuted.id.begin() + static_cast<std::ptrdiff_t>(k * leaf));
+  return permuted;
 }
 
 }  // namespace piola

@@ -12,9 +12,4 @@ namespace piola {
 /// it. One rank: returns `order`.
 SlotOrder bisected(ParticleSet const& set, Body const& body, SlotOrder const& order, int ranks);
 
-/// pencil_order() of a body, permuted by bisected().
-inline SlotOrder bisected_pencils(ParticleSet const& set, Body const& body, int ranks) {
-  return bisected(set, body, pencil_order(set, body), ranks);
-}
-
 }  // namespace piola

@@ -52,4 +52,4 @@ exec::Totals<N> reduce_over_ranks(bool shared, Range r, Pass const& pass, double
   return allreduce_partial_sums<N>(true, partial, exec::leaf_count(r), beside);
 }
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -37,7 +37,7 @@ Point unrolled_up(View const& view) {
   return turned(view.upwards, {-std::sin(e) * std::sin(a), std::cos(e), -std::sin(e) * std::cos(a)});
 }
 
-Point hash_mix(double a, Point const& p, double b, Point const& q) {
+Point mixed(double a, Point const& p, double b, Point const& q) {
   return {a * p[0] + b * q[0], a * p[1] + b * q[1], a * p[2] + b * q[2]};
 }
 
@@ -107,12 +107,12 @@ View View::in(int dimension) const {
 
 std::array<double, 3> View::right() const {
   double const r = radians(roll);
-  return hash_mix(std::cos(r), unrolled_right(*this), -std::sin(r), unrolled_up(*this));
+  return mixed(std::cos(r), unrolled_right(*this), -std::sin(r), unrolled_up(*this));
 }
 
 std::array<double, 3> View::up() const {
   double const r = radians(roll);
-  return hash_mix(std::sin(r), unrolled_right(*this), std::cos(r), unrolled_up(*this));
+  return mixed(std::sin(r), unrolled_right(*this), std::cos(r), unrolled_up(*this));
 }
 
 std::array<double, 3> View::towards_viewer() const {
@@ -186,7 +186,7 @@ Eye eye_before(Camera const& camera, double angle, Point const& low, Point const
   Point const diagonal = minus(high, low);
   double const half = length(diagonal) / 2;
   if (!(angle > 0) || !(half > 0)) return {};
-  return {half / std::tan(radians(angle / 2)), camera.look_at.value_or(hash_mix(0.5, low, 0.5, high)),
+  return {half / std::tan(radians(angle / 2)), camera.look_at.value_or(mixed(0.5, low, 0.5, high)),
           camera.view.towards_viewer()};
 }
 

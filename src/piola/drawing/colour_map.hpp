@@ -27,7 +27,6 @@ class ColourMap {
   Colour operator()(double value) const;  ///< values outside the range get the end's colour, not-a-number magenta
   double low() const { return low_; }
   double high() const { return high_; }
-  bool diverging() const { return diverging_; }  ///< whether zero has the middle colour
 
  private:
   double low_, high_;

@@ -43,7 +43,7 @@ std::array<std::uint8_t, 4097> const& encoding() {
 
 float luminance(Light3 const& c) { return 0.2126F * c[0] + 0.7152F * c[1] + 0.0722F * c[2]; }
 
-Light3 hash_mix(Light3 const& a, Light3 const& b, float share) {
+Light3 mixed(Light3 const& a, Light3 const& b, float share) {
   return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2])};
 }
 
@@ -154,7 +154,7 @@ struct Sampler {
     std::size_t const at = shading.bodies.surfaces->at(x, y);
     Light3 const seen = solid(x, y, pixel, at);
     bool const ghost = ghosts.depth(at) > std::max(bodies.depth(at), tools.depth(at));
-    return ghost ? hash_mix(seen, ghosts.seen(x, y, pixel), ghost_opacity) : seen;
+    return ghost ? mixed(seen, ghosts.seen(x, y, pixel), ghost_opacity) : seen;
   }
 
  private:
@@ -175,13 +175,13 @@ struct Sampler {
       if (!shading.ground.empty()) {
         GroundLight const& there = shading.ground[pixel];
         behind =
-            hash_mix(behind, {there.light * ground[0], there.light * ground[1], there.light * ground[2]}, there.share);
+            mixed(behind, {there.light * ground[0], there.light * ground[1], there.light * ground[2]}, there.share);
       }
-      return shading.lines.empty() ? behind : hash_mix(behind, line, shading.lines[at]);
+      return shading.lines.empty() ? behind : mixed(behind, line, shading.lines[at]);
     }
     if (body >= tool) return bodies.seen(x, y, pixel);
     if (body == nothing) return tools.seen(x, y, pixel);
-    return hash_mix(bodies.seen(x, y, pixel), tools.seen(x, y, pixel), tool_opacity);
+    return mixed(bodies.seen(x, y, pixel), tools.seen(x, y, pixel), tool_opacity);
   }
 };
 

@@ -310,7 +310,7 @@ Mat<3> fitted_gradient(ReferenceMesh const& mesh, Configuration const& now, std:
     Point3 const d = minus(now.x[other], now.x[particle]), D = minus(mesh.X[other], mesh.X[particle]);
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) {
-        hash_mix(a, b) += d[static_cast<std::size_t>(a)] * D[static_cast<std::size_t>(b)];
+        mixed(a, b) += d[static_cast<std::size_t>(a)] * D[static_cast<std::size_t>(b)];
         moment(a, b) += D[static_cast<std::size_t>(a)] * D[static_cast<std::size_t>(b)];
       }
     size += dot(D, D);
@@ -318,7 +318,7 @@ Mat<3> fitted_gradient(ReferenceMesh const& mesh, Configuration const& now, std:
   if (!(size > 0)) return identity<3>();
   constexpr double little = 2e-4;
   for (int a = 0; a < 3; ++a) {
-    hash_mix(a, a) += little * size;
+    mixed(a, a) += little * size;
     moment(a, a) += little * size;
   }
   return mixed * inverse(moment);

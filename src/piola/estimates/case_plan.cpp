@@ -66,16 +66,19 @@ CasePlan plan_of_case(CaseSpec spec, ParticleSet particles, double reading_secon
   plan.facts = body_properties(spec, particles);
   // Smaller cases are built, which also detects input errors of the formulation; of larger ones a part.
   if (particles.size() < large_case) {
+    CostMeter const meter;
     Simulation simulation = build(std::move(spec), std::move(particles));
     Trial trial;
-    plan.cost = estimate_by_trial(simulation, trial);
+    plan.cost = estimate(simulation, meter, trial);
     plan.warnings = std::move(simulation.warnings);
     if (trial.failure) plan.warnings.push_back(failure_of_trial(trial));
     plan.spec = std::move(simulation.spec);
     plan.particles = std::move(simulation.particles);
   } else {
     int const threads = exec_host::set_threads(spec.run.threads);
+    CostMeter const meter;
     Assembly const assembly = assemble(spec, particles);
+    reading_seconds += meter.seconds();
     plan.cost = estimate_from_parts(spec, assembly.particles, threads);
     plan.warnings = warnings_of(spec, assembly, {.step = plan.cost.step});
     plan.left_out.push_back(fmt::format(

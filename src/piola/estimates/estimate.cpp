@@ -2,74 +2,18 @@
 #include "piola/estimates/estimate.hpp"
 #include "piola/estimates/reduced_case.hpp"
 #include "piola/estimates/step_range.hpp"
-#include "piola/exec/backend_registry.hpp"
 #include "piola/formulations/make_formulation.hpp"
-#include "piola/formulations/setting_warnings.hpp"
-#include "piola/input/check_case.hpp"
 #include "piola/input/contact_capabilities.hpp"
-#include "piola/measures/probe.hpp"
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
-#include <optional>
-#include <string_view>
-#include <utility>
 
 namespace piola {
 namespace {
 
-/// Processor time per particle and right-hand side [s], by the number of dimensions: whole steps with all they need,
-/// one thread, AVX-512. From `piola bench` (bench/README.md) and, where that has no row, runs of 40 steps.
-struct ThroughputModel {
-  std::array<double, 3> lattice;      ///< neighbours at fixed distances; taylor_sph: boxes; adaptle: total Lagrangian
-  std::array<double, 3> off_lattice;  ///< lists; taylor_sph: simplices; adaptle: Eulerian
-  std::array<double, 3> setup;        ///< s per particle for tables, lists and the first output
-  std::array<double, 3> overhead;     ///< bytes per particle at the peak over Formulation::memory_bytes
-  std::array<double, 3> more_scattered = {};  ///< and these, if scattered
-  /// For observation by local particles: replicated bytes per particle of the body; rank 0 needs more for output.
-  /// Measured by bench/ranks_memory.py.
-  double everywhere = 0, of_first = 0;
-  /// As above during set-up, if different: replicated bytes of all particles, and bytes of local ones over
-  /// Formulation::memory_bytes, some of which come later.
-  struct SetUp {
-    double everywhere, lattice, off_lattice;
-  };
-  std::optional<SetUp> in_set_up = {};
-};
-
-/// Measured by the largest resident memory of runs with 64,000 to 512,000 particles: in it are what set-up and
-/// measurements of the step limit need for a while, and what a checkpoint needs of one field.
-ThroughputModel pace_of(std::string_view formulation) {
-  constexpr double ns = 1e-9, us = 1e-6;
-  if (formulation == "adaptle")
-    return {{300 * ns, 345 * ns, 640 * ns},
-            {300 * ns, 377 * ns, 746 * ns},
-            {2 * us, 2 * us, 5 * us},
-            {280, 280, 250},
-            {},
-            94,
-            6};
-  if (formulation == "taylor_sph")
-    return {{10 * ns, 98 * ns, 590 * ns},
-            {10 * ns, 200 * ns, 1350 * ns},
-            {1 * us, 2 * us, 6 * us},
-            {600, 800, 1100},
-            {0, 130, 200}};
-  bool const nodal = formulation == "nodal";
-  return {{40 * ns, 103 * ns, 280 * ns},
-          {80 * ns, 250 * ns, 1000 * ns},
-          {2 * us, 3 * us, 6 * us},
-          nodal ? std::array{240.0, 240.0, 245.0} : std::array{270.0, 270.0, 300.0},
-          nodal ? std::array{0.0, 0.0, 335.0} : std::array{0.0, 0.0, 100.0},
-          73,
-          6,
-          nodal ? std::optional(ThroughputModel::SetUp{200, -240, 75}) : std::nullopt};
-}
-
-constexpr double filter_factor = 2;     ///< of the volumetric filter of jst_sph
-constexpr double program_bytes = 31e6;  ///< the program with its libraries
-constexpr double messages_bytes = 9e6;  ///< memory of a rank for MPI and messages
-constexpr double output_bytes = 14e6;   ///< memory of rank 0 for files, for any number of particles
-constexpr double row_stages = 2;        ///< right-hand sides that a row of history.csv is worth
+constexpr double program_bytes = 31e6;  ///< the program with its libraries and buffers of files
+constexpr double rank_bytes = 23e6;     ///< of rank 0 in addition, for MPI and collective output
 constexpr double frame_seconds = 2.4e-6, checkpoint_seconds = 1e-6;  ///< per particle
 constexpr double picture_seconds = 0.2;
 constexpr double compressed = 0.42;     ///< remaining fraction of the numbers of a frame
@@ -77,71 +21,6 @@ constexpr double picture_bytes = 0.6;   ///< per pixel
 constexpr double cell_bytes = 12;       ///< of a history.csv
 constexpr double kept_checkpoints = 2;  ///< at a time
 constexpr double frame_file_bytes = 48e3, checkpoint_file_bytes = 11e3;  ///< of a file without particles
-
-/// Instruction sets of less width take longer; measured: scalar.
-double slowness(std::string const& backend) {
-  constexpr std::array<std::pair<std::string_view, double>, 3> factors{{{"v4", 1}, {"v3", 1.2}, {"scalar", 2.5}}};
-  for (auto const& [name, factor] : factors)
-    if (backend == name || (backend == "auto" && exec_host::processor_can_run(name))) return factor;
-  return factors.back().second;
-}
-
-/// Whether jst_sph filters the volumetric energy.
-bool is_filtered(BodySpec const& body) {
-  FormulationSpec const& spec = body.formulation;
-  auto const is = [&](std::string_view key, std::string_view word) {
-    auto const found = spec.words.find(key);
-    return found != spec.words.end() && found->second == word;
-  };
-  auto const law = find_law(body.law);
-  return spec.name == "jst_sph" && !is("scheme", "paper") && !is("variables", "displacement") && law &&
-         law->volumetric_split && poissons_ratio_of(body.material) > 0.4499;
-}
-
-/// Whether the neighbours of a body follow from its lattice.
-bool is_regular(CaseSpec const& spec, BodySpec const& body) {
-  bool const mirrored = std::any_of(spec.mirrors.begin(), spec.mirrors.end(),
-                                    [&](MirrorSpec const& mirror) { return mirror.body == body.name; });
-  std::string_view const name = body.formulation.name;
-  auto const says = [&](char const* key, std::string_view word) {
-    auto const found = body.formulation.words.find(key);
-    return found != body.formulation.words.end() && found->second == word;
-  };
-  if (name == "adaptle") return !says("description", "eulerian");
-  if (name == "taylor_sph")
-    return says("virtual_particles", "lattice_cells") ||
-           (body.shape.kind == ShapeSpec::Kind::box && says("exchange", "estimates") &&
-            !says("virtual_particles", "delaunay") && !says("configuration", "fixed"));
-  return !mirrored && body.shape.jitter == 0 && !body.shape.random &&
-         body.shape.arrangement == ShapeSpec::Arrangement::lattice;
-}
-
-/// Replicated bytes per particle of a body. For adaptle with kernel contact or Eulerian particles including the
-/// occupied cells.
-double bytes_everywhere(CaseSpec const& spec, BodySpec const& body, ThroughputModel const& pace) {
-  if (body.formulation.name != "adaptle") return pace.everywhere;
-  constexpr double cells = 40;
-  auto const is_eulerian = [](BodySpec const& some) {
-    auto const found = some.formulation.words.find("description");
-    return found != some.formulation.words.end() && (found->second == "eulerian" || found->second == "patch");
-  };
-  auto const is_like = [&](BodySpec const& some) { return some.formulation.name == body.formulation.name; };
-  using Law = ContactRule::Law;
-  bool const apart = spec.contact && (spec.contact->law == Law::none || spec.contact->law == Law::surface);
-  bool const touching = !apart && std::count_if(spec.bodies.begin(), spec.bodies.end(), is_like) > 1;
-  bool const sorted = touching || std::any_of(spec.bodies.begin(), spec.bodies.end(), is_eulerian);
-  return pace.everywhere + (sorted ? cells : 0);
-}
-
-/// Whether set-up is distributed; nodal sets some bodies up on every rank (nodal::SetUp::is_shared).
-bool is_set_up_by_share(CaseSpec const& spec, BodySpec const& body) {
-  auto const continues = [&](MirrorSpec const& mirror) { return mirror.body == body.name; };
-  auto const holds = [&](SupportSpec const& support) {
-    return support.body == body.name && support.patch && support.hold != SupportSpec::Hold::particles;
-  };
-  return body.formulation.name != "nodal" || (std::none_of(spec.mirrors.begin(), spec.mirrors.end(), continues) &&
-                                              std::none_of(spec.supports.begin(), spec.supports.end(), holds));
-}
 
 /// Number of outputs of each kind.
 struct Plan {
@@ -151,15 +30,20 @@ struct Plan {
 Plan plan_of(CaseSpec const& spec) {
   OutputSpec const& o = spec.output;
   auto const times = [&](double every) { return every > 0 ? std::floor(spec.run.end / every) + 1 : 0; };
-  return {o.history_every > 0 ? times(o.history_every) : 501, times(o.frames_every), times(o.pictures.every),
+  double const frames = times(o.frames_every), pictures = times(o.pictures.every);
+  // Every picture has a frame, which may also be one of the others.
+  double const ratio = frames > pictures ? o.pictures.every / o.frames_every : o.frames_every / o.pictures.every;
+  bool const coincide = frames == 0 || pictures == 0 || std::abs(ratio - std::round(ratio)) < 1e-9 * ratio;
+  return {o.history_every > 0 ? times(o.history_every) : 501,
+          coincide ? std::max(frames, pictures) : frames + pictures - 1, pictures,
           std::max(1.0, times(o.checkpoints_every))};
 }
 
 /// Bytes of a frame per particle: positions, cells, numbers and fields.
 double frame_bytes(OutputSpec const& output, std::vector<FieldInfo> const& fields) {
   double numbers = 4;  // position and volume
+  auto const chosen = fields_of_frames(output);
   for (FieldInfo const& field : fields) {
-    auto const& chosen = output.frame_fields;
     if (chosen.empty() || std::find(chosen.begin(), chosen.end(), field.name) != chosen.end())
       numbers += field.components;
   }
@@ -174,8 +58,12 @@ double picture_pixels(OutputSpec const& output) {
   return given > 0 ? given : usual * output.pictures.scale * output.pictures.scale;
 }
 
-double disk_of(CaseSpec const& spec, Formulation const& formulation, double particles, double state) {
+/// `built`: particles of the formulation, which may be a part of `particles`.
+double disk_of(CaseSpec const& spec, Formulation const& formulation, double particles, double built) {
   Plan const plan = plan_of(spec);
+  StateSize saved;
+  formulation.save(saved);
+  double const state = static_cast<double>(saved.numbers()) / built;
   double columns = 24 + static_cast<double>(formulation.diagnose().more.size());
   for (ProbeSpec const& probe : spec.probes) columns += static_cast<double>(probe.quantities.size());
   return plan.frames * (frame_file_bytes + particles * frame_bytes(spec.output, formulation.fields())) +
@@ -183,27 +71,18 @@ double disk_of(CaseSpec const& spec, Formulation const& formulation, double part
          kept_checkpoints * (checkpoint_file_bytes + 8 * state * particles) + plan.rows * columns * cell_bytes;
 }
 
-bool observes_locally(BodySpec const& body) {
-  auto const info = find_formulation(body.formulation.name);
-  return info && info->observes_locally;
-}
-
-/// Numbers per particle gathered on rank 0 for a row: displacements for probes that need all particles, and velocities
-/// of fragments. Additive probes only reduce a few sums.
-double probed_numbers(CaseSpec const& spec) {
-  auto const asked = [&](auto const& is) { return std::any_of(spec.probes.begin(), spec.probes.end(), is); };
-  bool const positions = asked([](ProbeSpec const& probe) { return !is_reducible(probe.kind); });
-  bool const velocities = asked([](ProbeSpec const& probe) { return probe.kind == ProbeSpec::Kind::fragment; });
-  return (positions ? 3 : 0) + (velocities ? 3 : 0);
+double seconds_of_row(Formulation const& formulation) {
+  auto const start = CostMeter::Clock::now();
+  (void)formulation.diagnose();
+  return std::chrono::duration<double>(CostMeter::Clock::now() - start).count();
 }
 
 /// Wall time of `steps` steps with all output [s].
 double run_seconds_of(CaseSpec const& spec, double particles, std::int64_t steps, Estimate const& e) {
   Plan const plan = plan_of(spec);
   double const rows = std::min(plan.rows, static_cast<double>(steps) + 1);
-  return (static_cast<double>(steps) * e.step_work + rows * e.row_work) / e.busy_threads +
-         plan.frames * frame_seconds * particles + plan.pictures * picture_seconds +
-         plan.checkpoints * checkpoint_seconds * particles;
+  return static_cast<double>(steps) * e.step_seconds + rows * e.row_seconds + plan.frames * frame_seconds * particles +
+         plan.pictures * picture_seconds + plan.checkpoints * checkpoint_seconds * particles;
 }
 
 /// Values that depend on the number of steps. `change`: relative change of the length of the last trial steps.
@@ -213,120 +92,8 @@ void count_steps(CaseSpec const& spec, double particles, double change, Estimate
   e.most_steps = static_cast<std::int64_t>(std::min(excess.factor * as_tried, 1e18));
   e.varies = excess.why;
   if (spec.run.relax) e.varies = "the run ends as soon as the bodies are at rest: these are the steps to run.end";
-  e.rows_per_step = std::min(plan_of(spec).rows / static_cast<double>(e.steps), 1.0);
   e.run_seconds = run_seconds_of(spec, particles, e.steps, e);
   e.most_run_seconds = run_seconds_of(spec, particles, e.most_steps, e);
-}
-
-/// `side`: CPU time of one right-hand side, `tables`: before the first one [s].
-void count_times(CaseSpec const& spec, ParticleSet const& particles, double stages, double side, double tables,
-                 Estimate& e) {
-  double const all = static_cast<double>(particles.size());
-  // Loops of few particles are shared by few threads.
-  constexpr double least_share = 2048;
-  e.busy_threads = std::min<double>(e.threads, std::floor(all / least_share) + 1);
-  e.step = std::min(e.rule.settled, spec.run.max_step);
-  e.stages = stages + e.rule.more_stages;
-  e.step_work = e.stages * side;
-  e.row_work = row_stages * side;
-  e.setup_seconds = tables + e.rule.setup_stages * side / e.busy_threads;
-  count_steps(spec, all, 0, e);
-}
-
-/// Set-up memory of a rank: of a whole body, and its replicated part [bytes].
-struct MemoryInSetUp {
-  double all, everywhere;
-};
-
-/// `in_steps`: of the body's arrays; `for_a_while`: temporary memory if it is not distributed [bytes].
-MemoryInSetUp memory_in_set_up(CaseSpec const& spec, std::size_t b, ThroughputModel const& pace, double n,
-                               double in_steps, double for_a_while) {
-  BodySpec const& body = spec.bodies[b];
-  double const usual = in_steps + for_a_while;
-  if (!observes_locally(body) || !is_set_up_by_share(spec, body)) return {usual, usual};
-  if (!pace.in_set_up || body.shape.dimension < 3) return {usual, n * bytes_everywhere(spec, body, pace)};
-  double const besides = is_regular(spec, body) ? pace.in_set_up->lattice : pace.in_set_up->off_lattice;
-  return {in_steps + n * besides, n * pace.in_set_up->everywhere};
-}
-
-/// Computes the values that depend on rule, memory and disk.
-void count_work(CaseSpec const& spec, ParticleSet const& particles, double stages, double probed, Estimate& e) {
-  auto const D = static_cast<std::size_t>(particles.dimension - 1);
-  double const slow = slowness(spec.run.backend), all = static_cast<double>(particles.size());
-  double side = 0, tables = 0;  // processor time of one right-hand side, of the tables [s]
-  double const of_formulation = e.memory;
-  e.memory_in_steps = e.memory + program_bytes;
-  e.memory_everywhere = e.everywhere_in_set_up = program_bytes + messages_bytes;
-  e.memory_in_set_up = program_bytes;
-  for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    ThroughputModel const pace = pace_of(spec.bodies[b].formulation.name);
-    auto const n = static_cast<double>(particles.bodies[b].last - particles.bodies[b].first);
-    bool const regular = is_regular(spec, spec.bodies[b]);
-    double const here =
-        n * slow * (regular ? pace.lattice : pace.off_lattice)[D] * (is_filtered(spec.bodies[b]) ? filter_factor : 1);
-    side += here;
-    tables += n * pace.setup[D];
-    double const for_a_while = n * (pace.overhead[D] + (regular ? 0 : pace.more_scattered[D]));
-    e.memory += for_a_while;
-    auto const set_up = memory_in_set_up(spec, b, pace, n, of_formulation * n / all, for_a_while);
-    e.memory_in_set_up += set_up.all;
-    e.everywhere_in_set_up += set_up.everywhere;
-    if (observes_locally(spec.bodies[b])) {
-      e.row_bytes += 8 * n * probed;
-      e.memory_everywhere += n * bytes_everywhere(spec, spec.bodies[b], pace);
-      e.memory_of_first = std::max(e.memory_of_first, output_bytes) + n * pace.of_first;
-    } else {
-      e.row_work_of_first += row_stages * here;  // all ranks have all of it
-      e.memory_everywhere += of_formulation * n / all + for_a_while;
-    }
-  }
-  count_times(spec, particles, stages, side, tables, e);
-  e.memory += program_bytes;
-}
-
-}  // namespace
-
-std::int64_t steps_of(StepEstimate const& rule, RunSpec const& run) { return steps_of(rule, run, 0, rule.first); }
-
-std::int64_t steps_of(StepEstimate const& rule, RunSpec const& run, double time, double last) {
-  double const most = std::min(rule.settled, run.max_step);
-  double step = std::min(last, most), steps = 0;
-  while (rule.growth > 1 && step < most && time + step < run.end) {
-    time += step;
-    step = std::min(rule.growth * step, most);
-    ++steps;
-  }
-  // As the main loop: a rest of less than a millionth of a step is taken along.
-  steps += std::max(1.0, std::ceil((run.end - time) / step * (1 - 1e-6)));
-  return static_cast<std::int64_t>(std::min(steps, 1e18));
-}
-
-Estimate estimate(CaseSpec const& spec, ParticleSet const& particles, Formulation const& formulation, int threads) {
-  Estimate e;
-  e.rule = formulation.step_estimate_of_run();
-  e.steps = steps_of(e.rule, spec.run);
-  e.threads = threads;
-  auto const n = static_cast<double>(particles.size());
-  StateSize saved;
-  formulation.save(saved);
-  e.memory = static_cast<double>(formulation.memory_bytes());
-  e.disk = disk_of(spec, formulation, n, n > 0 ? static_cast<double>(saved.numbers()) / n : 0);
-  count_work(spec, particles, formulation.stages_per_step(), probed_numbers(spec), e);
-  for (std::size_t b = 0; b < particles.bodies.size(); ++b) {
-    e.talk.push_back(formulation.comm_pattern(b));
-    if (!e.talk[b]) continue;
-    if (e.talk[b]->stages == 0) e.talk[b]->stages = e.stages;
-    e.talk[b]->account_for_shorter_steps(e.rule.settled, e.step);
-  }
-  return e;
-}
-
-namespace {
-
-/// Steps of a trial: enough for the first measurement of nodal, else as many as the time allows by counted work.
-std::int64_t steps_to_try(Estimate const& e) {
-  constexpr double seconds = 2, fewest = 60, most = 400;
-  return static_cast<std::int64_t>(std::clamp(seconds * e.busy_threads / e.step_work, fewest, most));
 }
 
 /// Corrects the steps by those of a trial. `now`: the rule after it.
@@ -351,15 +118,93 @@ void correct(Estimate& e, CaseSpec const& spec, Trial const& trial, StepEstimate
   }
 }
 
+/// Memory that set-up and steps of a formulation have taken [bytes].
+double bytes_of(Formulation const& formulation, CostMeter const& meter) {
+  return std::max(meter.bytes(), static_cast<double>(formulation.memory_bytes()));
+}
+
+/// Whether ranks divide the memory of a body among themselves; else each rank takes all of it.
+bool is_distributed(BodySpec const& body) {
+  auto const info = find_formulation(body.formulation.name);
+  return info && info->observes_locally;
+}
+
+double particles_of(Body const& body) { return static_cast<double>(body.last - body.first); }
+
+/// Cost of a body, scaled from that of a part of it.
+struct ScaledCost {
+  StepEstimate rule;
+  double setup_seconds = 0, step_seconds = 0, row_seconds = 0, bytes = 0, disk = 0;
+};
+
+/// `particles`: number along each direction of the part. Loops of few particles occupy few of the `threads`.
+ScaledCost scaled_cost(CaseSpec const& spec, ParticleSet const& set, std::size_t body, int particles, int threads) {
+  double const bodies = static_cast<double>(set.bodies.size());
+  TrialLimits const limits{.fewest = 10, .most = 100, .seconds = 1 / bodies, .longest = 5 / bodies};
+  auto const busy = [&](double n) {
+    constexpr double fewest = 2048;  // particles of a thread
+    return std::min<double>(threads, std::floor(n / fewest) + 1);
+  };
+  Assembly const part = part_of_case(spec, body, particles);
+  CostMeter const meter;
+  auto const formulation = make_formulation(part);
+  ScaledCost cost{.rule = formulation->step_estimate_of_run(), .setup_seconds = meter.seconds()};
+  auto const some = static_cast<double>(part.particles.size());
+  double const here = particles_of(set.bodies[body]), scale = here / some;
+  cost.disk = disk_of(spec, *formulation, here, some);
+  Trial const trial = take_trial_steps(*formulation, spec.run, limits);
+  double const scale_of_time = scale * busy(some) / busy(static_cast<double>(set.size()));
+  cost.setup_seconds *= scale;
+  cost.step_seconds = scale_of_time * trial.step_seconds;
+  cost.row_seconds = scale_of_time * seconds_of_row(*formulation);
+  cost.bytes = scale * bytes_of(*formulation, meter);
+  return cost;
+}
+
+/// Particles of a body that a rank stores: its part, and two layers of ghosts around a cube of this size, without the
+/// layers outside a cubic body.
+double stored_by_rank(double particles, int dimension, int ranks) {
+  constexpr double layers = 2;
+  double const own = particles / ranks, edges = 1.0 / dimension;
+  double const around = std::pow(std::pow(own, edges) + 2 * layers, dimension) - own;
+  return std::min(own + (1 - std::pow(ranks, -edges)) * around, particles);
+}
+
 }  // namespace
 
-Estimate estimate_by_trial(Simulation& s, Trial& trial) {
-  constexpr double shutdown_timeout = 10;  // s, on slow or busy machines
-  Estimate e = estimate(s.spec, s.particles, *s.formulation, s.threads);
-  trial = take_trial_steps(*s.formulation, s.spec.run, steps_to_try(e), shutdown_timeout);
+std::int64_t steps_of(StepEstimate const& rule, RunSpec const& run) { return steps_of(rule, run, 0, rule.first); }
+
+std::int64_t steps_of(StepEstimate const& rule, RunSpec const& run, double time, double last) {
+  double const most = std::min(rule.settled, run.max_step);
+  double step = std::min(last, most), steps = 0;
+  while (rule.growth > 1 && step < most && time + step < run.end) {
+    time += step;
+    double const growth = rule.growth;
+    step = std::min(growth * step, most);
+    ++steps;
+  }
+  // As the main loop: a rest of less than a millionth of a step is taken along.
+  steps += std::max(1.0, std::ceil((run.end - time) / step * (1 - 1e-6)));
+  return static_cast<std::int64_t>(std::min(steps, 1e18));
+}
+
+Estimate estimate(Simulation& s, CostMeter const& meter, Trial& trial) {
+  auto const n = static_cast<double>(s.particles.size());
+  Estimate e;
+  e.threads = s.threads;
+  e.setup_seconds = meter.seconds();
+  e.rule = s.formulation->step_estimate_of_run();
+  e.disk = disk_of(s.spec, *s.formulation, n, n);
+  trial = take_trial_steps(*s.formulation, s.spec.run, {});
   correct(e, s.spec, trial, s.formulation->step_estimate_of_run());
+  e.step_seconds = trial.step_seconds;
+  double const bytes = bytes_of(*s.formulation, meter);
+  e.memory = program_bytes + static_cast<double>(s.particles.bytes()) + bytes;
+  for (std::size_t b = 0; b < s.spec.bodies.size(); ++b)
+    e.distributed.push_back(is_distributed(s.spec.bodies[b]) ? bytes * particles_of(s.particles.bodies[b]) / n : 0);
+  e.row_seconds = seconds_of_row(*s.formulation);
   double const change = e.step > trial.step ? 0 : trial.earlier / trial.step - 1;  // 0: as the rule foresees
-  count_steps(s.spec, static_cast<double>(s.particles.size()), change, e);
+  count_steps(s.spec, n, change, e);
   return e;
 }
 
@@ -367,30 +212,35 @@ Estimate estimate_from_parts(CaseSpec const& spec, ParticleSet const& particles,
   constexpr std::array part_size{4000, 100, 24};
   Estimate e;
   e.threads = threads;
-  double stages = 1;
-  std::vector<double> own_steps;
+  std::size_t const initial_velocities = particles.X.size() * sizeof(particles.X[0]);  // parts have none
+  e.memory = program_bytes + static_cast<double>(particles.bytes() + initial_velocities);
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
-    Assembly const a = part_of_case(spec, b, part_size[static_cast<std::size_t>(particles.dimension - 1)]);
-    auto const formulation = make_formulation(a);
-    StepEstimate const rule = formulation->step_estimate_of_run();
-    own_steps.push_back(rule.settled);
-    if (b == 0 || rule.settled < e.rule.settled) e.rule = rule;
-    stages = formulation->stages_per_step();
-    StateSize saved;
-    formulation->save(saved);
-    auto const all = static_cast<double>(particles.bodies[b].last - particles.bodies[b].first);
-    auto const some = static_cast<double>(a.particles.size());
-    e.memory += static_cast<double>(formulation->memory_bytes()) * all / some;
-    e.disk += disk_of(spec, *formulation, all, static_cast<double>(saved.numbers()) / some);
-    e.talk.push_back(formulation->comm_pattern(0));
-    if (e.talk.back()) e.talk.back()->replicated_values *= all / some;
-    if (e.talk.back()) e.talk.back()->stages = stages + rule.more_stages;
+    int const size = part_size[static_cast<std::size_t>(particles.dimension - 1)];
+    // The first steps of a formulation load its code, whose memory and time must not be scaled.
+    (void)scaled_cost(spec, particles, b, size / 3, threads);
+    ScaledCost const cost = scaled_cost(spec, particles, b, size, threads);
+    if (b == 0 || cost.rule.settled < e.rule.settled) e.rule = cost.rule;
+    e.setup_seconds += cost.setup_seconds;
+    e.step_seconds += cost.step_seconds;
+    e.row_seconds += cost.row_seconds;
+    e.memory += cost.bytes;
+    e.distributed.push_back(is_distributed(spec.bodies[b]) ? cost.bytes : 0);
+    e.disk += cost.disk;
   }
+  e.step = std::min(e.rule.settled, spec.run.max_step);
   e.steps = steps_of(e.rule, spec.run);
-  count_work(spec, particles, stages, probed_numbers(spec), e);
-  for (std::size_t b = 0; b < e.talk.size(); ++b)
-    if (e.talk[b]) e.talk[b]->account_for_shorter_steps(own_steps[b], e.step);
+  count_steps(spec, static_cast<double>(particles.size()), 0, e);
   return e;
+}
+
+double memory_of_rank(Estimate const& cost, ParticleSet const& particles, int ranks) {
+  if (ranks == 1) return cost.memory;
+  double memory = cost.memory + rank_bytes;
+  for (std::size_t b = 0; b < particles.bodies.size(); ++b) {
+    double const n = particles_of(particles.bodies[b]);
+    memory -= cost.distributed[b] * (1 - stored_by_rank(n, particles.dimension, ranks) / n);
+  }
+  return memory;
 }
 
 }  // namespace piola

@@ -71,7 +71,7 @@ Assembly part_of_case(CaseSpec const& spec, std::size_t body, int particles) {
   };
   add(spec.bodies[body], particles);
   auto const info = find_formulation(spec.bodies[body].formulation.name);
-  if (!info || !info->has_spatial_halo) return a;
+  if (!info || !info->contact) return a;
   if (spec.contact) a.contact = *spec.contact;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     if (b == body || spec.bodies[b].formulation.name != info->name) continue;

@@ -9,12 +9,16 @@
 namespace piola {
 namespace {
 
-/// Notes the length of each step that nothing but stability has chosen.
-class StepLengths final : public Observer {
+/// Notes the wall time of each step, and its length if nothing but stability has chosen it. Asks for an end.
+class TrialObserver final : public Observer {
  public:
+  explicit TrialObserver(TrialLimits const& limits) : limits_(limits) {}
   void observe(Formulation const&, TimeState const& moment) override {
     if (!moment.cut_to_end) lengths_.push_back(moment.dt);
+    ends_.push_back(moment.stepping_seconds);
+    if (moment.step >= limits_.fewest && moment.stepping_seconds >= limits_.seconds) enough_ = 1;
   }
+  std::atomic<int> const& enough() const { return enough_; }
   /// Mean of the `k`-th last quarter of the steps, 0 being the last [s]; 0 if there are none.
   double mean_of_quarter(std::size_t k) const {
     std::size_t const n = lengths_.size(), some = std::max<std::size_t>(1, n / 4);
@@ -22,26 +26,34 @@ class StepLengths final : public Observer {
     auto const last = lengths_.end() - static_cast<std::ptrdiff_t>(k * some);
     return std::accumulate(last - static_cast<std::ptrdiff_t>(some), last, 0.0) / static_cast<double>(some);
   }
+  /// Mean wall time of the last half of the steps [s]; 0 if there are none.
+  double step_seconds() const {
+    std::size_t const n = ends_.size(), before = n / 2;
+    if (n == 0) return 0;
+    return (ends_.back() - (before > 0 ? ends_[before - 1] : 0)) / static_cast<double>(n - before);
+  }
 
  private:
-  std::vector<double> lengths_;
+  TrialLimits limits_;
+  std::vector<double> lengths_, ends_;
+  std::atomic<int> enough_{0};
 };
 
 }  // namespace
 
-Trial take_trial_steps(Formulation& formulation, RunSpec const& run, std::int64_t most, double seconds) {
-  std::atomic<int> const nobody_asks{0};
-  WallLimit wall(seconds, WallLimit::Clock::now());
-  StepLengths lengths;
-  std::array<Observer*, 1> const observers{&lengths};
+Trial take_trial_steps(Formulation& formulation, RunSpec const& run, TrialLimits const& limits) {
+  WallLimit wall(limits.longest, WallLimit::Clock::now());
+  TrialObserver steps(limits);
+  std::array<Observer*, 1> const observers{&steps};
   TimeState moment;
-  LoopResult march_result = march(formulation, run, moment, observers, {nobody_asks, wall, {.step = most}});
+  LoopResult march_result = march(formulation, run, moment, observers, {steps.enough(), wall, {.step = limits.most}});
   Trial trial{.steps = moment.step, .time = moment.time, .over = march_result.ending == RunStatus::completed};
   trial.failure = std::move(march_result.failure);
-  trial.step = lengths.mean_of_quarter(0);
-  trial.earlier = lengths.mean_of_quarter(1);
+  trial.step = steps.mean_of_quarter(0);
+  trial.earlier = steps.mean_of_quarter(1);
   if (!(trial.step > 0)) trial.step = moment.dt;
   if (!(trial.earlier > 0)) trial.earlier = trial.step;
+  trial.step_seconds = steps.step_seconds();
   return trial;
 }
 

@@ -21,4 +21,4 @@ struct WithScratch {
 };
 
 }  // namespace exec
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -231,4 +231,4 @@ PIOLA_FN void record(FailureSlot* slot, Index i, int code) {
 }
 
 }  // namespace exec
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -111,4 +111,4 @@ inline WriteView write(FieldRef const& f) {
   return {f.data, f.component_stride, f.particle_stride, f.tile_extra};
 }
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -120,4 +120,4 @@ class ReproducibleSum {
 };
 
 }  // namespace exec
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

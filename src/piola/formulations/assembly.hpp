@@ -83,9 +83,6 @@ struct Assembly {
   double cfl = std::numeric_limits<double>::quiet_NaN();  ///< nan: the scheme's default
   std::string backend = "auto";                           ///< instruction set: auto, scalar, v3, v4
   Repartition repartition;                                ///< on ranks
-  /// For memory estimates: builds the formulation as a rank that owns no particle would, i.e. only the data that every
-  /// rank holds of all particles. Only if FormulationInfo::has_spatial_halo.
-  bool for_estimate_only = false;
 };
 
 /// The materials of a body: the main one, then those of its parts, in the order of ParticleSet::part.

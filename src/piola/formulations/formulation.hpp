@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/domain/bisection.hpp"
 #include "piola/domain/load_balancer.hpp"
 #include "piola/domain/redistribution_plan.hpp"
 #include "piola/mechanics/resultants.hpp"
 #include "piola/mechanics/rigid_state.hpp"
-#include "piola/particles/ordering.hpp"
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -73,52 +71,10 @@ struct Failure {
 
 /// Estimate of the step lengths of a run.
 struct StepEstimate {
-  double settled = 0;       ///< s, the step once the run has settled
-  double first = 0;         ///< s
-  double growth = 1;        ///< a step may be longer than the one before by this factor; 1: no bound
-  std::string limit;        ///< what limits the step, in words
-  double more_stages = 0;   ///< mean number of right-hand sides per step in addition to stages_per_step
-  double setup_stages = 0;  ///< right-hand sides before the first step
-};
-
-/// Communication pattern of one body, for estimates of parallel efficiency.
-struct CommPattern {
-  /// Values per particle of one ghost exchange, sent to the ranks within `reach`.
-  struct Told {
-    double reach;  ///< cutoff in the reference configuration [m]
-    int numbers;
-  };
-  std::vector<std::vector<Told>> messages;  ///< of one right-hand side, to the ranks that read any of it
-  /// Exchange with spatial neighbours (HaloCells), after an allgather of the occupied cells.
-  struct SpatialHalo {
-    struct Numbers {
-      int any, flow, touch;  ///< values per particle: for any reader, for Eulerian readers, for contact
-    };
-    std::vector<Numbers> messages;  ///< per step
-    std::size_t group = 0;          ///< bodies of a group use the same cells, whose edge is the largest of their
-                                    ///< `cell`
-    double cell = 0;                ///< edge [m]
-    bool touching = false;          ///< bodies of the group can be in contact
-    std::vector<std::uint8_t> is_eulerian;  ///< Eulerian or not, per particle of the body, or one value for all
-  };
-  std::optional<SpatialHalo> near{};
-  double stages = 0;             ///< right-hand sides per step; 0: as in step_estimate_of_run()
-  double collectives = 0;        ///< allreduces and broadcasts per step
-  double more_if_shortened = 0;  ///< additional ones when the common step is shorter than the step of this formulation
-  double replicated_values = 0;  ///< values per step that are replicated on all ranks
-  /// Order of the particles for a given number of ranks; each rank owns a contiguous range of it (even_range_of_rank).
-  SlotOrder (*order)(ParticleSet const&, Body const&, int ranks) = &bisected_pencils;
-
-  /// Adds the collectives that the formulation needs when the common time step `step` [s] is shorter than `own`, the
-  /// step that it would take by itself.
-  void account_for_shorter_steps(double own, double step) {
-    if (step < own) collectives += std::exchange(more_if_shortened, 0.0);
-  }
-  /// Adds the cost of replicating position and velocity of `particles` particles in every step, for surface contact.
-  void add_coupled_particles(std::size_t particles) {
-    collectives += particles > 0 ? 1 : 0;
-    replicated_values += 6 * static_cast<double>(particles);
-  }
+  double settled = 0;  ///< s, the step once the run has settled
+  double first = 0;    ///< s
+  double growth = 1;   ///< a step may be longer than the one before by this factor; 1: no bound
+  std::string limit;   ///< what limits the step, in words
 };
 
 /// Receives the evolved state by name, in Id order, as bit-exact doubles.
@@ -226,8 +182,6 @@ class Formulation {
   virtual std::vector<std::pair<std::string, double>> timings() const { return {}; }
   virtual std::size_t memory_bytes() const = 0;
 
-  /// Communication pattern of one body; empty if the formulation does not run on ranks.
-  virtual std::optional<CommPattern> comm_pattern(std::size_t /*body*/) const { return std::nullopt; }
   /// Number of repartitions; empty if the formulation cannot repartition.
   virtual std::optional<RepartitionStatistics> repartition_statistics() const { return std::nullopt; }
 };

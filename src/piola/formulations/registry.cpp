@@ -6,8 +6,6 @@
 #include "piola/formulations/adaptle/solver.hpp"
 #include "piola/formulations/common/observe_on_root.hpp"
 #include "piola/formulations/coupling/coupled_formulations.hpp"
-#include "piola/formulations/jst_advection/options.hpp"
-#include "piola/formulations/jst_advection/solver.hpp"
 #include "piola/formulations/jst_sph/options.hpp"
 #include "piola/formulations/jst_sph/solver.hpp"
 #include "piola/formulations/make_formulation.hpp"
@@ -30,12 +28,11 @@ struct Entry {
 
 /// Adding a formulation: its folder and one line here.
 std::array const all{Entry{jst_sph::info(), &jst_sph::make, &jst_sph::setting_warning},
-                     Entry{jst_advection::info(), &jst_advection::make, &jst_advection::setting_warning},
                      Entry{taylor_sph::info(), &taylor_sph::make, &taylor_sph::setting_warning},
                      Entry{adaptle::info(), &adaptle::make, &adaptle::setting_warning},
                      Entry{nodal::info(), &nodal::make, &nodal::setting_warning}};
 
-std::array const infos{all[0].info, all[1].info, all[2].info, all[3].info, all[4].info};
+std::array const infos{all[0].info, all[1].info, all[2].info, all[3].info};
 
 bool knows(FormulationInfo const& info, std::string_view what) {
   if (what == "cracks") return info.cracks;

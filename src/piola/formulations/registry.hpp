@@ -49,10 +49,8 @@ struct FormulationInfo {
   bool parts = false;             ///< whether bodies may consist of parts of several materials
   bool cell_volumes = false;      ///< whether jittered particles get the volumes of their Voronoi cells
   bool surface_supports = false;  ///< whether supports can hold the surface itself, where particles lie inside
-  bool on_ranks = false;          ///< whether its bodies are distributed over ranks; else each rank computes all of
-                                  ///< them
-  bool has_spatial_halo = false;  ///< whether communication includes a spatial halo, which changes with the positions
-  /// Whether observers evaluate local particles on each rank; else the state is gathered on rank 0 first.
+  /// Whether observers evaluate local particles on each rank; else every rank has the state of all bodies, and rank 0
+  /// observes alone.
   bool observes_locally = false;
   std::span<FormulaInfo const> formulas = {};  ///< optional formulas
   std::span<RemovedSetting const> removed = {};

@@ -91,7 +91,9 @@ class JacobianGuard : public Guard {
 /// The largest value of a column since the start of the run.
 class LargestGuard : public Guard {
  public:
-  LargestGuard(std::string name, std::string column) : name_(std::move(name)), column_(std::move(column)) {}
+  /// state: name in checkpoints, after "guard_".
+  LargestGuard(std::string name, std::string column, std::string state)
+      : name_(std::move(name)), column_(std::move(column)), state_("guard_" + std::move(state)) {}
   void look(GuardInput const& look) override {
     auto const now = column_of(look.now, column_);
     if (!now) return;
@@ -106,10 +108,10 @@ class LargestGuard : public Guard {
     if (seen_ == 0) return std::nullopt;
     return GuardNumbers{name_, {{"largest", largest_}, {"time", time_}}, words()};
   }
-  void save(StateWriter& writer) const override { writer.put("guard_" + name_, std::array{seen_, largest_, time_}); }
+  void save(StateWriter& writer) const override { writer.put(state_, std::array{seen_, largest_, time_}); }
   void load(NamedState& reader) override {
     std::array<double, 3> v{};
-    reader.get("guard_" + name_, v);
+    reader.get(state_, v);
     seen_ = v[0];
     largest_ = v[1];
     time_ = v[2];
@@ -121,7 +123,7 @@ class LargestGuard : public Guard {
   double time() const { return time_; }
 
  private:
-  std::string name_, column_;
+  std::string name_, column_, state_;
   double seen_ = 0, largest_ = 0, time_ = 0;
 };
 
@@ -129,7 +131,7 @@ class LargestGuard : public Guard {
 class OverlapGuard : public LargestGuard {
  public:
   explicit OverlapGuard(GuardLimits const& limits)
-      : LargestGuard("overlap", "contact_overlap"), limit_(limits.overlap) {}
+      : LargestGuard("overlap", "contact_overlap", "overlap"), limit_(limits.overlap) {}
   void look(GuardInput const& look) override {
     LargestGuard::look(look);
     passages_ = look.now.passages;
@@ -172,22 +174,23 @@ class OverlapGuard : public LargestGuard {
   std::vector<Passage> passages_;
 };
 
-/// Strain of the cells between particles that their stress does not have (Taylor-SPH).
+/// Strain drift: strain of the cells between particles that their stress does not have (Taylor-SPH).
 class StrainDriftGuard : public LargestGuard {
  public:
   StrainDriftGuard(GuardLimits const& limits, ParticleSet const& particles)
-      : LargestGuard("parting", "parting"), limits_(limits), particles_(particles) {}
+      : LargestGuard("strain_drift", "strain_drift", "parting"), limits_(limits), particles_(particles) {}
   std::string words() const override {
-    if (!(largest() > limits_.parting_warn)) return "";
+    if (!(largest() > limits_.strain_drift_warn)) return "";
     return fmt::format(
-        "the strain of the cells parted from that of their stress by {:.3g} (limit {}) at t = {:.6g} s{} - particles "
-        "creep away without resistance; end the run earlier, or take more particles or configuration = \"fixed\"",
-        largest(), limits_.parting_warn, time(), where_.known() ? " near " + where_.text(particles_) : "");
+        "the strain of cells differs from that of their stress by {:.3g} (limit {}) at t = {:.6g} s{} - particles "
+        "creep "
+        "away without resistance; end the run earlier, or take more particles or configuration = \"fixed\"",
+        largest(), limits_.strain_drift_warn, time(), where_.known() ? " near " + where_.text(particles_) : "");
   }
   std::optional<StopRequest> stop_request() const override {
-    if (!(largest() > limits_.parting_stop)) return std::nullopt;
+    if (!(largest() > limits_.strain_drift_stop)) return std::nullopt;
     StopRequest o;
-    o.failure.what = "is at a cell whose strain has parted from its stress";
+    o.failure.what = "has a cell whose strain is inconsistent with its stress";
     if (where_.known()) {
       auto const id = static_cast<std::size_t>(where_.id);
       o.failure.particle = static_cast<std::int64_t>(id);
@@ -195,13 +198,13 @@ class StrainDriftGuard : public LargestGuard {
       o.failure.X = particles_.X[id];
       o.failure.x = where_.x;
     } else {
-      o.failure.what = "strain of cells has parted from their stress";
+      o.failure.what = "strain of cells is inconsistent with their stress";
     }
     o.failure.values = {{"strain without stress", largest()}};
     o.causes = fmt::format(
         "often jagged edges of a body that turns freely for many turns: particles there creep away without resistance; "
-        "end the run earlier, take more particles or configuration = \"fixed\"; run.guards.parting_stop is {}",
-        limits_.parting_stop);
+        "end the run earlier, take more particles or configuration = \"fixed\"; run.guards.strain_drift_stop is {}",
+        limits_.strain_drift_stop);
     return o;
   }
   void save(StateWriter& writer) const override {
@@ -217,8 +220,8 @@ class StrainDriftGuard : public LargestGuard {
 
  private:
   void grew(GuardInput const& look) override {
-    if (!(largest() > limits_.parting_warn) || !look.fields.knows("Parting")) return;
-    auto const all = look.fields.values("Parting");
+    if (!(largest() > limits_.strain_drift_warn) || !look.fields.knows("StrainDrift")) return;
+    auto const all = look.fields.values("StrainDrift");
     auto const worst = std::max_element(all.begin(), all.end());
     if (worst != all.end())
       where_ = suspect(look.fields, static_cast<std::size_t>(worst - all.begin()), look.moment.time);

@@ -127,8 +127,8 @@ class DissipationGuard : public Guard {
     double const gone = look.scale.initial() + d.external_work - d.total_energy() - d.damping_loss;
     // Energy of deleted particles is no loss of the scheme, nor is intended damping of a case.
     bool const intended = column_of(d, "deleted_particles").value_or(0) > 0;
-    double const rubbed = column_of(d, "friction_heat").value_or(0) + column_of(d, "contact_dissipation").value_or(0) +
-                          column_of(d, "tie_heat").value_or(0);
+    double const rubbed = column_of(d, "friction_heat").value_or(0) + column_of(d, "chatter_damping_loss").value_or(0) +
+                          column_of(d, "tie_dissipation").value_or(0);
     if (!intended) part_[3] = gone - d.stabilisation_loss - d.projection_loss - rubbed;
     part_[4] = d.stabilisation_loss + d.projection_loss + rubbed - gone;
     for (double& p : part_) p = std::isfinite(p) ? std::max(p, 0.0) : 0.0;
@@ -142,8 +142,8 @@ class DissipationGuard : public Guard {
                          {"stabilisation", of(0)},
                          {"projections", of(1)},
                          {"viscosity", of(2)},
-                         {"not_booked", of(3)},
-                         {"fed", of(4)}},
+                         {"unaccounted", of(3)},
+                         {"scheme_gain", of(4)}},
                         words()};
   }
   std::string words() const override {

@@ -22,7 +22,7 @@ constexpr double same = 1e-9;  ///< relative change of a steady load
 
 /// Whether a pressure follows its face and varies along it: such a load is not conservative.
 bool feeds_motion(LoadSpec const& load, ParticleSet const& particles, double time) {
-  if (!load.follows || load.kind != LoadSpec::Kind::pressure) return false;
+  if (!load.follower || load.kind != LoadSpec::Kind::pressure) return false;
   auto const ids = loaded_particles(particles, *body_named(particles, load.body), load);
   return varies_between(ids, load.value[0], particles, time);
 }
@@ -37,7 +37,7 @@ class FollowingLoadGuard : public Guard {
  public:
   FollowingLoadGuard(CaseSpec const& spec, ParticleSet const& particles) : spec_(spec), particles_(particles) {
     bool const follows =
-        std::any_of(spec.loads.begin(), spec.loads.end(), [](LoadSpec const& load) { return load.follows; });
+        std::any_of(spec.loads.begin(), spec.loads.end(), [](LoadSpec const& load) { return load.follower; });
     bool const known = std::all_of(spec.loads.begin(), spec.loads.end(), has_formulas);
     judges_ = spec.run.damping > 0 && follows && known && !has_driven_support(spec);
   }

@@ -17,7 +17,7 @@ constexpr double boundless = std::numeric_limits<double>::infinity();
 constexpr std::int64_t search_interval = 1000;  ///< steps between two searches, which cost as much as a few steps
 /// In spacings of the reference configuration: nearer particles of one body are neighbours, farther ones
 /// non-neighbours.
-constexpr double neighbours_within = 1.8, strangers_beyond = 3;
+constexpr double neighbours_within = 1.8, non_neighbours_beyond = 3;
 
 double length_between(Point const& a, Point const& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
@@ -31,7 +31,7 @@ struct Pair {
 class ProximityGuard : public Guard {
  public:
   ProximityGuard(CaseSpec const& spec, ParticleSet const& particles)
-      : limit_(spec.run.guards.strangers),
+      : limit_(spec.run.guards.proximity),
         merging_(spec.contact && spec.contact->law == ContactRule::Law::none),
         particles_(particles) {
     auto const D = static_cast<std::size_t>(particles.dimension);
@@ -64,7 +64,7 @@ class ProximityGuard : public Guard {
 
   std::optional<GuardNumbers> numbers() const override {
     return GuardNumbers{
-        "strangers", {{"nearest", m_.nearest}, {"time", m_.a.time}, {"searches", m_.searches}}, words()};
+        "proximity", {{"nearest", m_.nearest}, {"time", m_.a.time}, {"searches", m_.searches}}, words()};
   }
   std::string words() const override {
     if (!(m_.nearest < limit_)) return "";
@@ -111,7 +111,7 @@ class ProximityGuard : public Guard {
     auto const count = static_cast<double>(x_.size());
     Point const mean{sums.value(0) / count, sums.value(1) / count, sums.value(2) / count};
     double const finest = *std::min_element(finest_.begin(), finest_.end());
-    double const least = (finest_.size() > 1 ? 0.5 : strangers_beyond - 0.5) * finest / 2;
+    double const least = (finest_.size() > 1 ? 0.5 : non_neighbours_beyond - 0.5) * finest / 2;
     return std::any_of(x_.begin(), x_.end(), [&](Point const& x) {
       Point const& X = particles_.X[static_cast<std::size_t>(&x - x_.data())];
       return !(std::hypot(x[0] - X[0] - mean[0], x[1] - X[1] - mean[1], x[2] - X[2] - mean[2]) < least);
@@ -146,7 +146,7 @@ class ProximityGuard : public Guard {
                  one_eulerian = !eulerian_.empty() && (eulerian_[a] != 0 || eulerian_[b] != 0);
       if (same && before < neighbours_within * coarsest) neighbour = now;
       // Eulerian particles of one body, and of bodies that may merge, are neighbours wherever they come from.
-      if (same ? one_eulerian || before < strangers_beyond * coarsest : merging_ && both_eulerian) return;
+      if (same ? one_eulerian || before < non_neighbours_beyond * coarsest : merging_ && both_eulerian) return;
       double const spacing = same ? finest : (finest + finest_[its]) / 2;
       if (!same && before < spacing) return;
       if (!(now / spacing < best.distance)) return;

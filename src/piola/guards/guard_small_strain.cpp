@@ -41,7 +41,7 @@ class SmallStrainGuard : public Guard {
   SmallStrainGuard(CaseSpec const& spec, ParticleSet const& particles)
       : limits_(spec.run.guards), particles_(particles) {
     for (BodySpec const& body : spec.bodies) {
-      bool const with_gradient = body.formulation.name != "taylor_sph" && body.formulation.name != "jst_advection";
+      bool const with_gradient = body.formulation.name != "taylor_sph";
       watched_.push_back(body.law == "linear_elastic" && with_gradient);
     }
     any_ = std::find(watched_.begin(), watched_.end(), true) != watched_.end();

@@ -75,10 +75,10 @@ void warn_of_other_contact(CaseSpec const& spec, Problems& found) {
               "contact.self has no effect here (no body has a surface that could touch itself) - remove it, or take "
               "nodal or jst_sph");
   if (!has_surface_contact(spec) && is_given(places, "friction"))
-    found.add(
-        place_of(places, "friction"),
-        "contact.friction has no effect here (bodies of adaptle meet without friction) - remove it, or take nodal "
-        "or jst_sph for one of them");
+    found.add(place_of(places, "friction"),
+              "contact.friction has no effect here (contact between bodies of adaptle has no friction) - remove it, or "
+              "take nodal "
+              "or jst_sph for one of them");
 }
 
 std::optional<double> column_at_start(std::optional<Diagnostics> const& start, std::string_view name) {
@@ -195,6 +195,7 @@ void refuse_unpaid_contact(CaseSpec const& spec, ParticleSet const& particles, D
 
 std::vector<std::string> warnings_of(CaseSpec const& spec, Assembly const& assembly, StartEstimate const& prospect) {
   Problems found;
+  for (OldSpelling const& spelling : spec.old_spellings) found.add(spelling.place, spelling.text);
   find_implausible_values(spec, assembly.particles, body_properties(spec, assembly.particles), prospect.step, found);
   for (SettingWarning const& setting_warning : setting_warnings(assembly))
     found.add(place_of_doubt(spec.bodies[setting_warning.body], setting_warning.key), setting_warning.text);

@@ -2,7 +2,7 @@
 #include "piola/input/case_difference.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
-#include "piola/input/document.hpp"
+#include "piola/input/renamed_keys.hpp"
 #include <algorithm>
 #include <array>
 #include <set>
@@ -14,8 +14,9 @@ using Leaf = std::pair<std::string, std::string>;  // dotted path, value as TOML
 constexpr char const* nothing = "nothing";
 
 // Key, or section whose keys may all change.
-constexpr std::array<std::string_view, 8> changeable{"run.end",         "run.threads", "run.machine", "run.min_step",
-                                                     "run.repartition", "run.guards",  "output",      "quantity"};
+constexpr std::array<std::string_view, 8> changeable{"run.end",      "run.threads",     "run.instruction_set",
+                                                     "run.min_step", "run.repartition", "run.guards",
+                                                     "output",       "quantity"};
 
 /// Names of the tables of a list; numbers if names are missing or not unique.
 std::vector<std::string> steps_of(Node const& list) {
@@ -44,7 +45,8 @@ void collect(Node const& node, std::string const& path, std::vector<Leaf>& leave
 
 std::vector<Leaf> leaves_of(std::string_view text, char const* name) {
   Problems problems;
-  auto const document = parse_document(text, name, problems);
+  auto document = parse_document(text, name, problems);
+  if (document) use_current_spellings(*document, problems);
   problems.raise_if_any();
   std::vector<Leaf> leaves;
   collect(document->root, "", leaves);

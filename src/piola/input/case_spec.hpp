@@ -4,6 +4,7 @@
 #include "piola/base/expression.hpp"
 #include "piola/base/identity.hpp"
 #include "piola/formulations/assembly.hpp"
+#include "piola/input/document.hpp"
 #include "piola/input/guard_limits.hpp"
 #include "piola/setup/faces.hpp"
 #include <array>
@@ -24,13 +25,13 @@ struct RunSpec {
   double end = 0;                                             ///< s
   double cfl = std::numeric_limits<double>::quiet_NaN();      ///< nan: the scheme's default
   double max_step = std::numeric_limits<double>::infinity();  ///< s, upper bound of the step
-  double min_step = 0;           ///< s; a smaller stable step is a failure (0: 1e-6 of the first step)
-  int threads = 0;               ///< 0: all cores
-  double damping = 0;            ///< rate at which velocities decay [1/s]
-  bool relax = false;            ///< dynamic relaxation: ends at rest
-  double rest = 1e-3;            ///< relax: residual force at rest / its maximum in the run
-  std::string backend = "auto";  ///< instruction set: auto, scalar, v3, v4
-  Repartition repartition;       ///< on ranks
+  double min_step = 0;            ///< s; a smaller stable step is a failure (0: 1e-6 of the first step)
+  int threads = 0;                ///< 0: all cores
+  double damping = 0;             ///< rate at which velocities decay [1/s]
+  bool relax = false;             ///< dynamic relaxation: ends at rest
+  double relax_tolerance = 1e-3;  ///< relax: residual force at rest / its maximum in the run
+  std::string backend = "auto";   ///< instruction set: auto, scalar, v3, v4
+  Repartition repartition;        ///< on ranks
   GuardLimits guards;
   Places places;
 };
@@ -95,7 +96,7 @@ struct LoadSpec {
   std::array<Expression, 3> value;  ///< Pa, N/m^3 or m/s^2, in X, Y, Z, t
   Face face;                        ///< traction, pressure
   ShapeSpec shape;                  ///< of the body
-  bool follows = false;             ///< pressure: on the deformed face
+  bool follower = false;            ///< pressure: on the deformed face
   bool on_face() const { return kind == Kind::traction || kind == Kind::pressure; }
   double until = std::numeric_limits<double>::infinity();  ///< s: gone then
   Places places;
@@ -105,7 +106,7 @@ struct LoadSpec {
 struct MirrorSpec {
   std::string body;
   Face face;
-  bool skew = false;  ///< the image moves the opposite way
+  bool antisymmetric = false;  ///< the image moves the opposite way
   Places places;
 };
 
@@ -173,7 +174,7 @@ struct ProbeSpec {
   std::optional<Expression> anchored_where;  ///< fragment, rim, hole: particles in X, Y, Z of what stays in place
   Fragment fragment = Fragment::largest;     ///< fragment: which one
   double near_axis = std::numeric_limits<double>::infinity();  ///< fragment: extents, distance from the axis [m]
-  int least_particles = 1;                                     ///< fragment: smaller ones are no pieces
+  int min_particles = 1;                                       ///< fragment: smaller ones are not counted as large
   double within = 0, base = 0;        ///< rim: largest radius; coordinate along the axis from which heights count [m]
   int sectors = 24;                   ///< rim
   double slab_from = 0, slab_to = 0;  ///< hole: coordinates along the axis [m]
@@ -280,11 +281,23 @@ struct OutputSpec {
   bool compress = true;
 };
 
+/// Fields of the frames of a run: those that the case asks for and those of its pictures; empty: all of the
+/// formulation. `failed`: in the last state of a failed run, which has all where only pictures are asked for.
+inline std::vector<std::string> fields_of_frames(OutputSpec const& output, bool failed = false) {
+  std::vector<std::string> fields = output.frame_fields;
+  bool const pictures_alone = output.frames_every <= 0 && !failed;
+  if (output.pictures.every <= 0 || (fields.empty() && !pictures_alone)) return fields;
+  fields.insert(fields.end(), {output.pictures.field, "Damage", "KernelType"});
+  for (PictureSpec const& panel : output.pictures.panels) fields.push_back(panel.field);
+  return fields;
+}
+
 /// A whole case: plain values in SI, checked.
 struct CaseSpec {
   std::string title;
-  std::string source;  ///< the case file as run: overrides applied, TOML
-  Identity identity;   ///< of a run of it, taken when its files were read
+  std::string source;                      ///< the case file as run: overrides applied, present spellings, TOML
+  std::vector<OldSpelling> old_spellings;  ///< that the case file and the settings have
+  Identity identity;                       ///< of a run of it, taken when its files were read
   RunSpec run;
   std::vector<RegionSpec> regions;
   std::vector<BodySpec> bodies;

@@ -138,7 +138,7 @@ std::vector<std::int64_t> particles_on(Face const& face, ParticleSet const& part
   return ids;
 }
 
-// By symmetry the particles on a mirror never leave it, those on a skew one never move along it.
+// By symmetry the particles on a mirror never leave it, those on an antisymmetric one never move along it.
 Hold hold_of(MirrorSpec const& mirror, std::size_t number, ParticleSet const& particles, Body const& body) {
   Hold hold{.name = "mirror." + std::to_string(number),
             .place = place_of(mirror.places, ""),
@@ -146,7 +146,7 @@ Hold hold_of(MirrorSpec const& mirror, std::size_t number, ParticleSet const& pa
             .velocity = {},
             .ids = particles_on(mirror.face, particles, body)};
   for (std::size_t i = 0; i < static_cast<std::size_t>(particles.dimension); ++i)
-    hold.along[4 * i] = (static_cast<int>(i) == mirror.face.axis) != mirror.skew ? 1 : 0;
+    hold.along[4 * i] = (static_cast<int>(i) == mirror.face.axis) != mirror.antisymmetric ? 1 : 0;
   return hold;
 }
 

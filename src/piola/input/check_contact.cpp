@@ -8,7 +8,7 @@ namespace piola {
 namespace {
 
 constexpr std::string_view who_has_one =
-    " (allowed: nodal, jst_sph, taylor_sph and total-Lagrangian adaptle, without skew mirrors)";
+    " (allowed: nodal, jst_sph, taylor_sph and total-Lagrangian adaptle, without antisymmetric mirrors)";
 
 /// Error text if no body has a contact surface, because of its formulation or its settings.
 std::string no_surface(CaseSpec const& spec, FormulationInfo const& first, std::string const& what) {
@@ -28,10 +28,11 @@ void check_contact_ability(CaseSpec const& spec, Problems& problems) {
   bool const able =
       off && std::any_of(all.begin(), all.end(), [](FormulationInfo const& info) { return info.can_be_coupled; });
   for (RigidSpec const& rigid : spec.rigids)
-    problems.add(place_of(rigid.places, ""),
-                 able ? "the rigid shape " + in_quotes(rigid.name) +
-                            " pushes nobody, since contact.law is \"none\" (allowed: one of them) - remove one"
-                      : no_surface(spec, all.front(), "rigid shapes"));
+    problems.add(
+        place_of(rigid.places, ""),
+        able ? "the rigid shape " + in_quotes(rigid.name) +
+                   " has no contact with any body, since contact.law is \"none\" (allowed: one of them) - remove one"
+             : no_surface(spec, all.front(), "rigid shapes"));
   if (spec.contact && !able) problems.add(place_of(spec.contact->places, ""), no_surface(spec, all.front(), "contact"));
 }
 

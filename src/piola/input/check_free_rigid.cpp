@@ -25,7 +25,7 @@ void check_bodies(CaseSpec const& spec, RigidSpec const& rigid, Problems& proble
                  "nothing keeps " + shape_words(rigid) + " apart from " + (without.size() > 1 ? "bodies " : "body ") +
                      joined(without) +
                      " (allowed: bodies with a surface: nodal, jst_sph, taylor_sph, or adaptle with description = "
-                     "\"total_lagrangian\", without skew mirrors, with a contact.law) - change the body, or "
+                     "\"total_lagrangian\", without antisymmetric mirrors, with a contact.law) - change the body, or "
                      "let the shape be fixed or driven without turning" +
                      (any ? "; or say law = \"none\" in [[contact]] between them, for no contact" : ""));
   if (!spec.mirrors.empty())

@@ -36,7 +36,7 @@ double clearance(CaseSpec const& spec, ParticleSet const& particles, std::size_t
 
 bool has_plane(CaseSpec const& spec, ParticleSet const& particles, std::size_t b, SymmetryPlace const& plane) {
   return std::any_of(spec.mirrors.begin(), spec.mirrors.end(), [&](MirrorSpec const& mirror) {
-    if (mirror.body != spec.bodies[b].name || mirror.skew) return false;
+    if (mirror.body != spec.bodies[b].name || mirror.antisymmetric) return false;
     SymmetryPlace const other = place_of_plane(mirror, particles, particles.bodies[b]);
     double const rounding = 1e-6 * particles.bodies[b].spacing[plane.axis];
     return other.axis == plane.axis && other.inside == plane.inside && std::fabs(other.at - plane.at) < rounding;
@@ -57,12 +57,13 @@ void check_mirrored_contact(CaseSpec const& spec, ParticleSet const& particles, 
       if (b == a || !pushed_by_surface(spec, a, b) || has_plane(spec, particles, b, plane)) continue;
       double const off = clearance(spec, particles, b, plane);
       if (off > free_of_the_plane) continue;
-      problems.add(place_of(mirror.places, "face"),
-                   "the mirror plane of body " + in_quotes(mirror.body) + ", " + "xyz"[plane.axis] + " = " +
-                       quantity_text(plane.at, "m") + ", " + (off < 0 ? "cuts through" : "touches") + " body " +
-                       in_quotes(spec.bodies[b].name) +
-                       ", which is no mirror there (allowed: bodies that meet have the same mirror planes, or stay off "
-                       "them) - give both the mirror, or neither");
+      problems.add(
+          place_of(mirror.places, "face"),
+          "the mirror plane of body " + in_quotes(mirror.body) + ", " + "xyz"[plane.axis] + " = " +
+              quantity_text(plane.at, "m") + ", " + (off < 0 ? "cuts through" : "touches") + " body " +
+              in_quotes(spec.bodies[b].name) +
+              ", which is no mirror there (allowed: bodies in contact have the same mirror planes, or stay off "
+              "them) - give both the mirror, or neither");
     }
   }
 }

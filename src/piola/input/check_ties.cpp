@@ -35,9 +35,10 @@ std::string why_not(CaseSpec const& spec, std::size_t body) {
   if (can_have_surface(spec, body)) return "";
   if (!info || !info->can_be_coupled) return "the formulation " + b.formulation.name + " cannot be pushed";
   if (info->name == "taylor_sph" || b.shape.kind == ShapeSpec::Kind::points) return why_without_surface(spec, body);
-  bool const mirrored = std::any_of(spec.mirrors.begin(), spec.mirrors.end(),
-                                    [&](MirrorSpec const& mirror) { return mirror.body == b.name && mirror.skew; });
-  return mirrored ? "it has skew mirror planes" : "its particles may turn Eulerian";
+  bool const mirrored = std::any_of(spec.mirrors.begin(), spec.mirrors.end(), [&](MirrorSpec const& mirror) {
+    return mirror.body == b.name && mirror.antisymmetric;
+  });
+  return mirrored ? "it has antisymmetric mirror planes" : "its particles may turn Eulerian";
 }
 
 /// adaptle among itself keeps its bodies from shapes that do not turn by the kernel, held points, too.
@@ -59,11 +60,11 @@ bool check_bodies(CaseSpec const& spec, Problems& problems) {
       std::string const why = why_not(spec, b);
       if (why.empty()) continue;
       sound = false;
-      problems.add(
-          place_of(tie.places, "between"),
-          "the tie " + in_quotes(tie.name) + " cannot hold body " + in_quotes(spec.bodies[b].name) + ": " + why +
-              " (allowed: bodies of nodal, jst_sph, taylor_sph and total-Lagrangian adaptle without skew mirrors) - "
-              "choose another body or formulation");
+      problems.add(place_of(tie.places, "between"), "the tie " + in_quotes(tie.name) + " cannot hold body " +
+                                                        in_quotes(spec.bodies[b].name) + ": " + why +
+                                                        " (allowed: bodies of nodal, jst_sph, taylor_sph and "
+                                                        "total-Lagrangian adaptle without antisymmetric mirrors) - "
+                                                        "choose another body or formulation");
     }
   }
   return sound;
@@ -155,8 +156,8 @@ void warn_of_what_is_left(TieSpec const& tie, contact::Ties::TieReport const& of
   found.add(
       place_of(tie.places, "between"),
       fmt::format("the tie {} holds {} points, but {} more that face the other body are farther from it than half "
-                  "a spacing, as a gap or an overlap, and stay free - let the bodies touch, or say by where what "
-                  "is meant",
+                  "a spacing, as a gap or an overlap, and stay free - let the bodies touch, or select the "
+                  "points by where",
                   in_quotes(tie.name), of.points[0] + of.points[1], of.left));
 }
 

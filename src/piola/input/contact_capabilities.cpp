@@ -54,17 +54,18 @@ bool is_word(FormulationSpec const& spec, std::string_view name, std::string_vie
   return given != spec.words.end() && given->second == word;
 }
 
-/// Estimates hold the stress of free surfaces at zero, under contact, too: a push there is felt late and gains energy.
-bool by_estimates(FormulationSpec const& spec) {
+/// Kernel sums hold the stress of free surfaces at zero, under contact, too: a push there is felt late and gains
+/// energy.
+bool uses_kernel_sums(FormulationSpec const& spec) {
   return spec.name == "taylor_sph" &&
-         (is_word(spec, "exchange", "estimates") ||
+         (is_word(spec, "exchange", "kernel_sums") ||
           (is_word(spec, "configuration", "fixed") && !is_word(spec, "exchange", "adjoint")));
 }
 
 bool can_be_pushed(CaseSpec const& spec, std::size_t body) {
   FormulationSpec const& formulation = spec.bodies[body].formulation;
   auto const info = find_formulation(formulation.name);
-  return info && info->can_be_coupled && !by_estimates(formulation);
+  return info && info->can_be_coupled && !uses_kernel_sums(formulation);
 }
 
 }  // namespace
@@ -74,8 +75,9 @@ bool can_have_surface(CaseSpec const& spec, std::size_t body) {
   auto const info = find_formulation(b.formulation.name);
   bool const open_ended = b.shape.kind == ShapeSpec::Kind::points;  // its surface is unknown
   if (!can_be_pushed(spec, body) || open_ended) return false;
-  bool const mirrored = std::any_of(spec.mirrors.begin(), spec.mirrors.end(),
-                                    [&](MirrorSpec const& mirror) { return mirror.body == b.name && mirror.skew; });
+  bool const mirrored = std::any_of(spec.mirrors.begin(), spec.mirrors.end(), [&](MirrorSpec const& mirror) {
+    return mirror.body == b.name && mirror.antisymmetric;
+  });
   bool const converts = info->contact && (!is_word(b.formulation, "description", "total_lagrangian") ||
                                           is_word(b.formulation, "failed", "delete"));
   return !mirrored && !converts;
@@ -109,13 +111,13 @@ bool starts_with_surface_contact(CaseSpec const& spec, std::size_t a, std::size_
 std::string why_without_surface(CaseSpec const& spec, std::size_t body) {
   BodySpec const& b = spec.bodies[body];
   auto const info = find_formulation(b.formulation.name);
-  if (b.shape.kind == ShapeSpec::Kind::points) return "nobody knows the surface of particles from a file";
-  if (by_estimates(b.formulation))
-    return "estimates of taylor_sph hold its surface free of stress; exchange = \"adjoint\" feels others";
+  if (b.shape.kind == ShapeSpec::Kind::points) return "particles from a file have no known surface";
+  if (uses_kernel_sums(b.formulation))
+    return "kernel sums of taylor_sph hold its surface free of stress; exchange = \"adjoint\" feels others";
   if (info && info->can_be_coupled)
     return info->contact ? "particles of adaptle that may turn Eulerian or be deleted have no surface; description = "
                            "\"total_lagrangian\" without failed = \"delete\" keeps it"
-                         : "it has skew mirror planes";
+                         : "it has antisymmetric mirror planes";
   return "the formulation " + b.formulation.name + " knows no contact";
 }
 

@@ -21,7 +21,7 @@ bool has_kernel_contact(CaseSpec const& spec);
 bool is_off(CaseSpec const& spec, std::string const& a, std::string const& b);
 
 /// Whether a body has a surface for contact with other bodies and rigid shapes. Requires a formulation that supports
-/// it, no skew mirrors, and no conversion to Eulerian.
+/// it, no antisymmetric mirrors, and no conversion to Eulerian.
 bool has_surface(CaseSpec const& spec, std::size_t body);
 
 /// As has_surface(), even if contact is switched off; for ties.

@@ -45,10 +45,17 @@ struct Node::Entry {
   Node value;
 };
 
+/// A spelling of the previous minor release that a case uses, as a warning.
+struct OldSpelling {
+  Place place;
+  std::string text;
+};
+
 /// A parsed case file, not interpreted yet.
 struct Document {
   Node root;
-  std::string source;  ///< TOML that reads back as this document: the file itself, or rewritten after overrides
+  std::string source;  ///< TOML that reads back as this document: the file itself, or rewritten after changes
+  std::vector<OldSpelling> old_spellings = {};  ///< that were replaced (renamed_keys.hpp)
 };
 
 /// Parses TOML. Never throws on bad text: errors are added to `problems`, and nothing is returned. Also refuses NUL
@@ -58,7 +65,8 @@ std::optional<Document> parse_document(std::string_view text, std::string const&
 /// Applies "path=value" settings to a document: a dotted path of keys, with the number or the name of an array's table
 /// ("body.0.material.density", "body.column.material.density"), and a TOML value; a value that is no TOML is a text.
 /// Places of changed values name the setting; relative paths in them start from the folder of the document
-/// (root.place.file). Rewrites `source` if there are any.
+/// (root.place.file). Rewrites `source` if there are any. Document and settings may have spellings of the previous
+/// minor release, which become the present ones (renamed_keys.hpp).
 void apply_overrides(Document& document, std::span<std::string const> overrides, Problems& problems);
 
 /// TOML text of a table, entries in their order.

@@ -14,8 +14,8 @@ struct GuardLimits {
   double dissipation = 0.1;                                    ///< the same
   std::array<double, 2> jacobian{0.3, 3};                      ///< det F of what is no metal
   double overlap = 1;                                          ///< of contact, in spacings
-  double strangers = 0.5;                                      ///< distance, in spacings
-  double parting_warn = 0.05, parting_stop = 0.2;              ///< strain of the cells that their stress does not have
+  double proximity = 0.5;                                      ///< distance, in spacings
+  double strain_drift_warn = 0.05, strain_drift_stop = 0.2;    ///< strain of the cells that their stress does not have
   double step_warn = 1e-3, step_stop = 0;                      ///< step / step of waves at rest; 0: never below
   double small_strain_warn = 0.02, small_strain_stop = never;  ///< of linear_elastic: principal Green strain
   double small_rotation_warn = 0.05, small_rotation_stop = never;  ///< the same: angle of rotation [rad]

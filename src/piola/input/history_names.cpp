@@ -46,7 +46,7 @@ constexpr std::array fields{
     FieldName{"InternalEnergy", "J/kg", 1},
     FieldName{"KernelType", "1", 1},
     FieldName{"CellPressure", "Pa", 1},
-    FieldName{"LeastJacobian", "1", 1},
+    FieldName{"CellJacobianMin", "1", 1},
     FieldName{"ContactPressure", "Pa", 1},
     FieldName{"ContactGap", "m", 1},
     FieldName{"Slip", "m", 1},

@@ -13,8 +13,8 @@
 namespace piola {
 namespace {
 
-/// Keys of [run] that change no result, or whose effect is recorded in Identity::machine.
-constexpr std::array<std::string_view, 3> keys_without_effect{"threads", "machine", "repartition"};
+/// Keys of [run] that change no result, or whose effect is recorded in Identity::backend.
+constexpr std::array<std::string_view, 3> keys_without_effect{"threads", "instruction_set", "repartition"};
 
 std::string digest_text(std::uint64_t digest) { return fmt::format("{:016x}", digest); }
 

@@ -12,7 +12,7 @@ constexpr Interval half_open{0, 0.5, false, true};
 
 constexpr std::array<std::string_view, 1> auto_word{"auto"}, off_word{"off"}, none_word{"none"};
 constexpr std::array<std::string_view, 2> repartition_words{"auto", "never"};
-constexpr std::array<std::string_view, 4> machine_words{"auto", "scalar", "v3", "v4"};
+constexpr std::array<std::string_view, 4> instruction_set_words{"auto", "scalar", "v3", "v4"};
 constexpr std::array<std::string_view, 3> placement_words{"on_boundary", "cell_centred", "random"};
 constexpr std::array<std::string_view, 3> arrangement_words{"lattice", "rings", "lattice_with_rings"};
 
@@ -47,7 +47,7 @@ constexpr std::array body_keys{
             "1",
             {0, 2, true, false},
             "nodal, jst_sph with verlet: none, the step is measured; jst_sph else 0.3; taylor_sph: 0.9, exact lattices "
-            "1; adaptle, jst_advection: 0.3",
+            "1; adaptle: 0.3",
             "step as a fraction of spacing / wave speed",
             {}},
     KeyInfo{"run",
@@ -56,7 +56,7 @@ constexpr std::array body_keys{
             "1/s",
             not_negative,
             "0",
-            "rate at which velocities decay that no support prescribes, v' = -rate v beside the forces",
+            "mass-proportional damping: adds -damping v to the acceleration, except where a support prescribes v",
             {}},
     KeyInfo{"run",
             "relax",
@@ -68,12 +68,13 @@ constexpr std::array body_keys{
             "the latest",
             {}},
     KeyInfo{"run",
-            "rest",
+            "relax_tolerance",
             quantity,
             "1",
             {0, 1, true, true},
             "0.001",
-            "relax: at rest once the forces out of balance are below this share of the largest of the run",
+            "relax: tolerance; converged when the norm of unbalanced forces is below this fraction of its maximum in "
+            "the run",
             {}},
     KeyInfo{"run", "max_step", quantity, "s", positive, "no bound", "largest step", {}},
     KeyInfo{"run",
@@ -92,10 +93,10 @@ constexpr std::array body_keys{
             "\"auto\" (OMP_NUM_THREADS, SLURM_CPUS_PER_TASK or all cores)",
             "number of threads, or \"auto\"",
             auto_word},
-    KeyInfo{"run", "machine", word, "", {}, "\"auto\"", "instruction set of the processor", machine_words},
+    KeyInfo{
+        "run", "instruction_set", word, "", {}, "\"auto\"", "instruction set of the processor", instruction_set_words},
     KeyInfo{"run", "repartition", whole, "", count_range, "\"auto\" (when one of the ranks is busier than the others)",
-            "adaptle on several ranks: steps after which particles are shared out anew, \"auto\" or \"never\"",
-            repartition_words},
+            "adaptle with MPI: steps between repartitions, \"auto\" or \"never\"", repartition_words},
     KeyInfo{"run", "guards", table, "", {}, "all on", "limits of the guards, or \"off\"", off_word},
     KeyInfo{"run.guards",
             "energy_rise_warn",
@@ -119,7 +120,7 @@ constexpr std::array body_keys{
             "lowest and highest det F of materials that do not yield: warns outside", off_word},
     KeyInfo{"run.guards", "overlap", quantity, "1", positive, "1", "contact_overlap of adaptle: warns above", {}},
     KeyInfo{"run.guards",
-            "strangers",
+            "proximity",
             quantity,
             "1",
             positive,
@@ -127,14 +128,14 @@ constexpr std::array body_keys{
             "distance, in spacings, of particles that were no neighbours at the start: warns below",
             {}},
     KeyInfo{"run.guards",
-            "parting_warn",
+            "strain_drift_warn",
             quantity,
             "1",
             positive,
             "0.05",
             "taylor_sph, updated configuration: strain of cells that their stress does not have: warns above",
             {}},
-    KeyInfo{"run.guards", "parting_stop", quantity, "1", positive, "0.2", "the same: stops the run above", {}},
+    KeyInfo{"run.guards", "strain_drift_stop", quantity, "1", positive, "0.2", "the same: stops the run above", {}},
     KeyInfo{"run.guards",
             "step_warn",
             quantity,

@@ -7,7 +7,7 @@ namespace {
 
 using enum KeyInfo::Kind;
 
-constexpr std::array<std::string_view, 5> contact_words{"kernel", "linear", "printed", "surface", "none"};
+constexpr std::array<std::string_view, 5> contact_words{"kernel", "linear", "published", "surface", "none"};
 constexpr std::array<std::string_view, 2> hold_words{"surface", "particles"};
 constexpr std::array<std::string_view, 3> motion_words{"fixed", "driven", "free"};
 constexpr std::array<std::string_view, 6> face_words{"-x", "+x", "-y", "+y", "-z", "+z"};
@@ -82,7 +82,7 @@ constexpr std::array boundary_keys{
             {}},
     KeyInfo{
         "load",
-        "follows",
+        "follower",
         flag,
         "",
         {},
@@ -122,7 +122,7 @@ constexpr std::array boundary_keys{
     KeyInfo{"mirror", "body", name, "", {}, "", "name of the body, a box with particles on its faces", {}},
     KeyInfo{"mirror", "face", word, "", {}, "", "the face that is the plane of symmetry", face_words},
     KeyInfo{"mirror",
-            "skew",
+            "antisymmetric",
             flag,
             "",
             {},
@@ -212,18 +212,18 @@ constexpr std::array boundary_keys{
     KeyInfo{"rigid.box", "centre", point, "m", place_range, "none", "middle", {}},
     KeyInfo{"rigid.box", "lengths", point, "m", length_range, "none", "edges", {}},
 
-    KeyInfo{
-        "contact",
-        "law",
-        word,
-        "",
-        {},
-        "\"kernel\"; surface contact for total-Lagrangian bodies that touch at the start",
-        "what keeps bodies of adaptle apart (other bodies have surface contact); kernel: repulsion by the kernel, "
-        "stiffness from the impedances; linear: a spring with the stiffness of the material, for slow impacts; "
-        "printed: as published, with a constant that you give; surface: as other formulations have, with friction, if "
-        "all stay total-Lagrangian; none: no contact of any body, Eulerian bodies merge",
-        contact_words},
+    KeyInfo{"contact",
+            "law",
+            word,
+            "",
+            {},
+            "\"kernel\"; surface contact for total-Lagrangian bodies that touch at the start",
+            "what keeps bodies of adaptle apart (other bodies have surface contact); kernel: repulsion by the kernel, "
+            "stiffness from the impedances; linear: a spring with the stiffness of the material, for slow impacts; "
+            "published: as in the paper, with a constant that you give; surface: as other formulations have, with "
+            "friction, if "
+            "all stay total-Lagrangian; none: no contact of any body, Eulerian bodies merge",
+            contact_words},
     KeyInfo{"contact", "scale", quantity, "1", positive, "1", "all but none: factor on the stiffness", {}},
     KeyInfo{"contact",
             "between",
@@ -275,7 +275,7 @@ constexpr std::array boundary_keys{
             "",
             positive,
             "none",
-            "printed (required there): constant K, in Pa/m^2 in 2D, in Pa/m^3 in 3D",
+            "published (required there): constant K, in Pa/m^2 in 2D, in Pa/m^3 in 3D",
             {}},
     KeyInfo{"contact",
             "closing_speed",
@@ -291,7 +291,7 @@ constexpr std::array boundary_keys{
             "1",
             {1, 100, false, false},
             "4; kernel: up to 8 where the strength of the weaker body counts",
-            "kernel, printed: exponent of the ratio of kernels; 8 holds half the energy of 4",
+            "kernel, published: exponent of the ratio of kernels; 8 holds half the energy of 4",
             {}},
 };
 

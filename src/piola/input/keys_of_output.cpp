@@ -136,7 +136,7 @@ constexpr std::array output_keys{
             "1",
             {0, 1e6, false, false},
             "1",
-            "displacements are drawn so many times as large, which the title says",
+            "magnification of displacements; the title states it",
             {}},
     KeyInfo{"output.pictures",
             "ground",

@@ -2,6 +2,7 @@
 #include "piola/base/text.hpp"
 #include "piola/input/document.hpp"
 #include "piola/input/document_limits.hpp"
+#include "piola/input/renamed_keys.hpp"
 #include <algorithm>
 #include <charconv>
 
@@ -126,16 +127,21 @@ Node* item_of(Node& array, std::string const& step, std::string const& where, Se
   return nullptr;
 }
 
-void apply(Node& root, Setting const& setting, Problems& problems) {
-  Node* at = &root;
-  std::string where;
+void apply(Document& document, Setting const& setting, Problems& problems) {
+  Node* at = &document.root;
+  std::string where, section;
   for (std::size_t i = 0; i < setting.path.size(); ++i) {
-    std::string const& step = setting.path[i];
+    std::string step = setting.path[i];
     bool const last = i + 1 == setting.path.size();
     if (at->is_array()) {
       at = item_of(*at, step, where, setting, problems);
       if (at == nullptr) return;
     } else if (at->is_table()) {
+      if (auto const now = renamed_key(section, step)) {
+        note_old_spelling(document, setting.place, step, *now);
+        step = *now;
+      }
+      section = section_below(section, step);
       if (at->find(step) == nullptr) {
         Node table;
         set_place(table, setting.place, setting.value.base);
@@ -155,11 +161,12 @@ void apply(Node& root, Setting const& setting, Problems& problems) {
 }  // namespace
 
 void apply_overrides(Document& document, std::span<std::string const> overrides, Problems& problems) {
+  use_current_spellings(document, problems);
   if (overrides.empty()) return;
   for (std::string const& text : overrides) {
-    if (auto const setting = setting_of(text, document.root.place.file, problems))
-      apply(document.root, *setting, problems);
+    if (auto const setting = setting_of(text, document.root.place.file, problems)) apply(document, *setting, problems);
   }
+  use_current_spellings(document, problems);
   document.source = toml_text(document.root);
 }
 

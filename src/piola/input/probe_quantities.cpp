@@ -17,12 +17,13 @@ constexpr std::array spacing{HistoryName{"spacing_min", "1"},    HistoryName{"sp
                              HistoryName{"spacing_p5", "1"},     HistoryName{"spacing_median", "1"},
                              HistoryName{"spacing_std", "1"},    HistoryName{"share_below_0_75", "1"},
                              HistoryName{"share_below_0_5", "1"}};
-constexpr std::array fragment{HistoryName{"fragment_count", "1"},        HistoryName{"fragment_particles", "1"},
-                              HistoryName{"fragment_volume", "m^3"},     HistoryName{"fragment_velocity_x", "m/s"},
-                              HistoryName{"fragment_velocity_y", "m/s"}, HistoryName{"fragment_velocity_z", "m/s"},
-                              HistoryName{"fragment_extent_x", "m"},     HistoryName{"fragment_extent_y", "m"},
-                              HistoryName{"fragment_extent_z", "m"},     HistoryName{"piece_count", "1"},
-                              HistoryName{"piece_volume", "m^3"},        HistoryName{"piece_spread", "1"}};
+constexpr std::array fragment{
+    HistoryName{"fragment_count", "1"},          HistoryName{"fragment_particles", "1"},
+    HistoryName{"fragment_volume", "m^3"},       HistoryName{"fragment_velocity_x", "m/s"},
+    HistoryName{"fragment_velocity_y", "m/s"},   HistoryName{"fragment_velocity_z", "m/s"},
+    HistoryName{"fragment_extent_x", "m"},       HistoryName{"fragment_extent_y", "m"},
+    HistoryName{"fragment_extent_z", "m"},       HistoryName{"large_fragment_count", "1"},
+    HistoryName{"large_fragment_volume", "m^3"}, HistoryName{"large_fragment_volume_cv", "1"}};
 constexpr std::array rim{HistoryName{"rim_diameter", "m"}, HistoryName{"rim_height", "m"},
                          HistoryName{"rim_sectors", "1"}};
 constexpr std::array hole{HistoryName{"hole_slab", "m"}, HistoryName{"cavity_width", "m"}};

@@ -179,13 +179,13 @@ LoadSpec read_load(Section const& section, std::vector<BodyNames> const& bodies)
   else if (body != nullptr)
     read_loaded_face(section, *body, load);
   if (load.kind == LoadSpec::Kind::pressure)
-    section.read("follows", load.follows);
+    section.read("follower", load.follower);
   else
-    section.refuse("follows", "is used only by a pressure");
+    section.refuse("follower", "is used only by a pressure");
   section.read("until", load.until);
   section.refuse_unknown();
   load.places = places_of(
-      section, {"where", "body", "face", "patch", "traction", "body_force", "acceleration", "pressure", "follows"});
+      section, {"where", "body", "face", "patch", "traction", "body_force", "acceleration", "pressure", "follower"});
   return load;
 }
 
@@ -193,7 +193,7 @@ MirrorSpec read_mirror(Section const& section, std::vector<BodyNames> const& bod
   MirrorSpec mirror;
   BodyNames const* const body = find_body(section, bodies, mirror.body);
   read_face(section, body != nullptr ? *body : BodyNames{}, "mirrors at faces", mirror.face);
-  section.read("skew", mirror.skew);
+  section.read("antisymmetric", mirror.antisymmetric);
   section.refuse_unknown();
   mirror.places = places_of(section, {"body", "face"});
   return mirror;

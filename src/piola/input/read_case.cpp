@@ -190,6 +190,7 @@ CaseSpec read_document(Document const& document, Problems& problems, ReadLimits 
   Section const top(document.root, "", problems);
   CaseSpec spec;
   spec.source = document.source;
+  spec.old_spellings = document.old_spellings;
   read_title(top, spec.title);
   if (auto const run = top.table("run")) read_run(*run, spec.run);
   std::vector<BodyNames> names;

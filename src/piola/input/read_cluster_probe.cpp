@@ -20,7 +20,7 @@ constexpr std::array debris_keys{
     DebrisKey{"anchored_where", true, true, true},
     DebrisKey{"fragment", true, false, false},
     DebrisKey{"near_axis", true, false, false},
-    DebrisKey{"least_particles", true, false, false},
+    DebrisKey{"min_particles", true, false, false},
     DebrisKey{"within", false, true, false},
     DebrisKey{"base", false, true, false},
     DebrisKey{"sectors", false, true, false},
@@ -87,7 +87,7 @@ void read_anchor(Section const& section, BodyNames const* body, ProbeSpec& probe
 void read_fragment(Section const& section, BodyNames const* body, ProbeSpec& probe) {
   if (int const which = section.word_index("fragment"); which >= 0)
     probe.fragment = static_cast<ProbeSpec::Fragment>(which);
-  if (auto const least = section.whole("least_particles")) probe.least_particles = static_cast<int>(*least);
+  if (auto const least = section.whole("min_particles")) probe.min_particles = static_cast<int>(*least);
   if (section.read("near_axis", probe.near_axis)) {
     if (body != nullptr) read_line(section, body->dimension, probe);
     return;

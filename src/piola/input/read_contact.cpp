@@ -19,7 +19,7 @@ void read_stiffness(Section const& section, int dimension, ContactRule& contact)
   if (auto const value = section.find("stiffness")) {
     if (auto const number = read_number(*value, unit, positive, section.problems())) contact.stiffness = *number;
   } else {
-    section.report_missing("stiffness", "the constant of the law \"printed\", in " + unit,
+    section.report_missing("stiffness", "the constant of the law \"published\", in " + unit,
                            "stiffness = \"1e16 " + unit + "\"");
   }
 }
@@ -54,12 +54,12 @@ ContactSpec read_whole(Section const& section, int dimension) {
   ContactSpec contact;
   read_law(section, contact.law);
   Law const law = contact.law;
-  std::string const all = "\"kernel\", \"linear\", \"printed\" or \"surface\"";
+  std::string const all = "\"kernel\", \"linear\", \"published\" or \"surface\"";
   for (char const* key : {"scale", "self"}) refuse_for(section, key, law == Law::none, all);
   for (char const* key : friction_keys) refuse_for(section, key, law == Law::none, all);
-  refuse_for(section, "stiffness", law != Law::as_published, "\"printed\"");
+  refuse_for(section, "stiffness", law != Law::as_published, "\"published\"");
   refuse_for(section, "closing_speed", law != Law::kernel, "\"kernel\"");
-  refuse_for(section, "exponent", law != Law::kernel && law != Law::as_published, "\"kernel\" or \"printed\"");
+  refuse_for(section, "exponent", law != Law::kernel && law != Law::as_published, "\"kernel\" or \"published\"");
   section.read("scale", contact.scale);
   read_stiffness(section, dimension, contact);
   if (law != Law::none) read_friction(section, contact.friction);

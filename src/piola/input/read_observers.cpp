@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array contact_columns{std::pair{"contact_energy", "J"}, std::pair{"contact_overlap", "1"},
                                      std::pair{"contact_points", "1"}, std::pair{"friction_heat", "J"},
-                                     std::pair{"contact_dissipation", "J"}};
+                                     std::pair{"chatter_damping_loss", "J"}};
 
 using Kind = ProbeSpec::Kind;
 using Statistic = QuantitySpec::Statistic;
@@ -147,7 +147,8 @@ std::vector<Column> columns_of(CaseSpec const& spec) {
           add_all(spec.bodies[a].name + "-" + spec.bodies[b].name, action_quantities());
   }
   if (!spec.ties.empty())
-    for (auto const& [name, unit] : {std::pair{"tie_energy", "J"}, {"tie_heat", "J"}, {"tie_failed", "1"}})
+    for (auto const& [name, unit] :
+         {std::pair{"tie_energy", "J"}, {"tie_dissipation", "J"}, {"tie_failed_fraction", "1"}})
       columns.push_back({name, unit});
   for (TieSpec const& tie : spec.ties) add_all(tie.name, action_quantities());
   for (ProbeSpec const& probe : spec.probes) {

@@ -13,7 +13,8 @@ ShapeSpec read_points_shape(Section const& section) {
   shape.arrangement = ShapeSpec::Arrangement::packed;
   for (std::string_view const key : {"spacing", "particles", "placement", "jitter", "seed", "arrangement", "transform"})
     section.refuse(key, "is not used by points, which are the particles as they stand in the file");
-  for (std::string_view const key : {"box", "sphere", "cylinder"}) section.refuse(key, "stands beside points");
+  for (std::string_view const key : {"box", "sphere", "cylinder"})
+    section.refuse(key, "cannot be combined with points");
   section.refuse_unknown();
   auto const points = section.table("points");
   if (!points) return shape;

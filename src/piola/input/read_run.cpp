@@ -77,9 +77,9 @@ void read_guards(Section const& run, GuardLimits& limits) {
   read_limit(*section, "dissipation", limits.dissipation, never);
   read_jacobian(*section, limits);
   read_limit(*section, "overlap", limits.overlap, never);
-  read_limit(*section, "strangers", limits.strangers, 0);
-  read_limit(*section, "parting_warn", limits.parting_warn, never);
-  read_limit(*section, "parting_stop", limits.parting_stop, never);
+  read_limit(*section, "proximity", limits.proximity, 0);
+  read_limit(*section, "strain_drift_warn", limits.strain_drift_warn, never);
+  read_limit(*section, "strain_drift_stop", limits.strain_drift_stop, never);
   read_limit(*section, "step_warn", limits.step_warn, 0);
   read_limit(*section, "step_stop", limits.step_stop, 0);
   read_limit(*section, "small_strain_warn", limits.small_strain_warn, never);
@@ -117,11 +117,11 @@ void read_run(Section const& section, RunSpec& run) {
   section.read("cfl", run.cfl);
   section.read("max_step", run.max_step);
   section.read("min_step", run.min_step);
-  section.read("machine", run.backend);
+  section.read("instruction_set", run.backend);
   section.read("damping", run.damping);
   section.read("relax", run.relax);
-  if (!run.relax) section.refuse("rest", "is used only with relax = true");
-  section.read("rest", run.rest);
+  if (!run.relax) section.refuse("relax_tolerance", "is used only with relax = true");
+  section.read("relax_tolerance", run.relax_tolerance);
   read_threads(section, run);
   read_repartition(section, run);
   read_guards(section, run.guards);

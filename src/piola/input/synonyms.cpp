@@ -20,7 +20,7 @@ constexpr std::array synonyms{
     Synonym{" g weight ", "acceleration", "[[load]]"},
     Synonym{" force nodalforce pointload ", "traction", "[[load]]"},
     Synonym{" volumeforce ", "body_force", "[[load]]"},
-    Synonym{" follower ", "follows", "[[load]]"},
+    Synonym{" followerload followerpressure ", "follower", "[[load]]"},
     Synonym{" young youngs youngmodulus elasticmodulus elasticitymodulus ", "youngs_modulus", "material", true},
     Synonym{" e modulus stiffness ", "youngs_modulus", "material"},
     Synonym{" nu poisson poissons poissonratio ", "poissons_ratio", "material", true},

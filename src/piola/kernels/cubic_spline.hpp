@@ -29,4 +29,4 @@ struct CubicSpline {
   }
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -27,4 +27,4 @@ void with_kernel(Kernel const& chosen, KernelList<K...>, F const& f) {
   static_cast<void>(((chosen.name == K::name && (f.template operator()<K>(), true)) || ...));
 }
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -28,4 +28,4 @@ struct QuarticSpline {
   }
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

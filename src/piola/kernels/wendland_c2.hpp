@@ -31,4 +31,4 @@ struct WendlandC2 {
   }
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -29,4 +29,4 @@ struct WendlandC4 {
   }
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

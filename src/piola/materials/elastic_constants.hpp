@@ -39,4 +39,4 @@ struct ElasticConstants {
   PIOLA_FN double s_wave_speed() const { return std::sqrt(mu / rho0); }
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

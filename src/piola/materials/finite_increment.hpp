@@ -31,4 +31,4 @@ PIOLA_FN SymMat<3, T> trial_deviator(SymMat<3, T> const& S, double mu, Mat<3, T>
   return trial;
 }
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

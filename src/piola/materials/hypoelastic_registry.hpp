@@ -78,8 +78,8 @@ struct SolidLaw {
     if (Strength::yields) append(Heat::parameters_for(Strength::homologous));
     append(EosValues::parameters);
     if (Strength::yields) append(JohnsonCookDamage::parameters);
-    append(std::array{
-        Parameter{"spall_pressure", "Pa", "largest tension that the material bears", positive, unbounded, "no limit"}});
+    append(std::array{Parameter{"spall_pressure", "Pa", "spall strength: largest tension the material carries",
+                                positive, unbounded, "no limit"}});
     if (Strength::yields) append(Scatter::parameters);
     return all;
   }
@@ -135,4 +135,4 @@ void with_any_law(MaterialParameters const& material, F const& f) {
   with_solid(material, f);
 }
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -325,4 +325,4 @@ class Solid {
   JohnsonCookDamage damage_;
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

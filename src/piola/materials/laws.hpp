@@ -67,4 +67,4 @@ void with_law(MaterialParameters const& material, F const& f) {
   with_law(material, f, Laws{});
 }
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -37,4 +37,4 @@ PIOLA_FN Mat<D, T> restrict_to(Mat<3, T> const& P) {
   return r;
 }
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

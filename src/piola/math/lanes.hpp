@@ -125,4 +125,4 @@ PIOLA_FN V load(double const* p) {
 template <class V>
 inline constexpr int width = std::is_same_v<V, double> ? 1 : lane_count;
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -49,4 +49,4 @@ inline Vec<3> rotation_vector(Quaternion const& q) {
   return ((q.w < 0 ? -2 : 2) * half / sine) * q.v;
 }
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -27,4 +27,4 @@ PIOLA_FN double falling_root(F const& f, double low, double high, double small) 
   return x;
 }
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -40,4 +40,4 @@ PIOLA_FN T logarithm(T const& a) {
   return y;
 }
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -54,4 +54,4 @@ PIOLA_FN double invert(double const (&A)[N * N], double (&inverse)[N * N]) {
   return worst;
 }
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

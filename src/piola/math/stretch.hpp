@@ -48,4 +48,4 @@ PIOLA_FN Vec<3, T> principal_stretches_squared(Mat<3, T> const& F) {
   return {{q - p * (1.0 + d), q + p * (middle - apart), q + p * (middle + apart)}};
 }
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

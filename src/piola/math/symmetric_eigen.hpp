@@ -72,4 +72,4 @@ PIOLA_FN Eigen<D, V> symmetric_eigen(SymMat<D, V> A) {
   return e;
 }
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -170,4 +170,4 @@ PIOLA_FN Mat<3, T> tensor_cross(Mat<3, T> const& A, Mat<3, T> const& B) {
   return r;
 }
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -79,7 +79,7 @@ std::array<double, 3> pieces(Measured const& measured, FieldCache& cache, Cloud 
     volume[clusters.of[k]] += cache.particles().volume[static_cast<std::size_t>(cloud.id[k])];
   std::vector<double> big;
   for (std::size_t k = 0; k < volume.size(); ++k)
-    if (clusters.size[k] >= static_cast<std::size_t>(measured.spec.least_particles)) big.push_back(volume[k].value());
+    if (clusters.size[k] >= static_cast<std::size_t>(measured.spec.min_particles)) big.push_back(volume[k].value());
   if (big.empty()) return {};
   auto const n = static_cast<double>(big.size());
   double const mean = mean_of(big);

@@ -14,7 +14,7 @@ std::vector<double> spacing_values(Measured const& measured, FieldCache& cache);
 
 /// Kind fragment: the number of clusters, then of the chosen one (of several largest, the one with the first particle)
 /// particles, reference volume [m^Dim], mean velocity weighted by volume [m/s], and extents [m] of its particles nearer
-/// than `near_axis` to the axis; then of the clusters with `least_particles` or more their number, mean reference
+/// than `near_axis` to the axis; then of the clusters with `min_particles` or more their number, mean reference
 /// volume [m^Dim], and the standard deviation of volumes over the mean. Values of a missing cluster are
 /// zero; velocities are nan if the formulation has no field Velocity.
 std::vector<double> fragment_values(Measured const& measured, FieldCache& cache);

@@ -114,4 +114,4 @@ struct WorkOfLoads {
   }
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -56,4 +56,4 @@ PIOLA_FN double power_of(RigidRate const& g, RateSums const& v) {
   return power;
 }
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

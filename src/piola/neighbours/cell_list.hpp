@@ -82,13 +82,6 @@ class CellList {
   /// Position of a particle, and corner of a cell, relative to the origin [edges].
   std::array<double, 3> where(Index slot) const;
   std::array<double, 3> corner(Index cell) const;
-  /// Position of a particle relative to the corner of a cell [edges].
-  std::array<double, 3> within(Index cell, Index slot) const {
-    std::array<double, 3> at = where(slot);
-    std::array<double, 3> const from = corner(cell);
-    for (std::size_t c = 0; c < 3; ++c) at[c] -= from[c];
-    return at;
-  }
   Index cell_count() const { return count_[0] * count_[1] * count_[2]; }
   std::array<Index, 3> shape() const { return count_; }
   float const* place(int axis) const { return place_[static_cast<std::size_t>(axis)].data(); }

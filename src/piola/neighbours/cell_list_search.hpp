@@ -112,4 +112,4 @@ struct FindNeighbours {
 
 inline void find_neighbours(CellListSearch const& s) { exec::for_each_block(Range{0, s.targets}, FindNeighbours{s}); }
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

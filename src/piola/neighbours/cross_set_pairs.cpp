@@ -5,7 +5,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 namespace piola {
@@ -114,10 +113,6 @@ void CrossSetPairs::build(CrossSetPairRequest const& request, int lanes, Index f
           "neighbours: more pairs than one process can list (allowed: 2^31 per lane) - use larger spacings");
     begin_.push_back(begin_.back() + static_cast<Index>(longest));
   }
-}
-
-double CrossSetPairs::mean_count() const {
-  return count_.empty() ? 0 : std::accumulate(count_.begin(), count_.end(), 0.0) / static_cast<double>(count_.size());
 }
 
 std::size_t CrossSetPairs::bytes() const {

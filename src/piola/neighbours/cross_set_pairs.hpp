@@ -49,7 +49,6 @@ class CrossSetPairs {
 
   CrossSetPairTable table() const { return {begin_.data(), source_.data(), inverse_h_.data()}; }
   int count(Index target) const { return count_[static_cast<std::size_t>(target)]; }  ///< within the support
-  double mean_count() const;
   std::size_t bytes() const;
 
  private:

@@ -179,4 +179,4 @@ struct ListLoader {
   }
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

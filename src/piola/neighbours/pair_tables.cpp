@@ -37,7 +37,6 @@ Shape shape_of(std::vector<LanePair>& pairs) {
 void ReferencePairs::make_stencils() {
   int const W = options_.lanes;
   std::int32_t const full = (1 << W) - 1;
-  std::int64_t lanes_present = 0, lanes_all = 0;
   std::vector<LanePair> pairs;
   auto const add = [&](Shape const& shape, int group, std::int32_t(&run)[2]) {
     run[0] = static_cast<std::int32_t>(entries_.size());
@@ -51,7 +50,6 @@ void ReferencePairs::make_stencils() {
   };
   auto const& kind = corrections_.kind;
   std::map<std::vector<std::int32_t>, std::int32_t> pattern_of;
-  std::vector<std::int64_t> present, all;  // lanes with a neighbour, and all, per pattern
   std::vector<std::int32_t> kinds;
   for (Index first = 0; first < slots_; first += W) {
     auto const from = kind.begin() + first;
@@ -71,17 +69,12 @@ void ReferencePairs::make_stencils() {
         add(shape, 0, p.inner);
         add(shape, 1, p.outer);
         patterns_.push_back(p);
-        present.push_back(static_cast<std::int64_t>(pairs.size()));
-        all.push_back(static_cast<std::int64_t>(shape.size()) * W);
       }
       pattern_of_.push_back(at->second);
     } else {
       pattern_of_.push_back(pattern_of_.back());
     }
-    lanes_present += present[static_cast<std::size_t>(pattern_of_.back())];
-    lanes_all += all[static_cast<std::size_t>(pattern_of_.back())];
   }
-  fill_ = lanes_all > 0 ? static_cast<double>(lanes_present) / static_cast<double>(lanes_all) : 0;
 }
 
 void ReferencePairs::make_list() {

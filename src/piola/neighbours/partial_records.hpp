@@ -90,4 +90,4 @@ template <int N>
 }
 #endif
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -108,4 +108,4 @@ PIOLA_FN void add_lanes(Lanes const (&a)[N], double* out) {
 }
 #endif
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

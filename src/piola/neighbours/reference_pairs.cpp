@@ -345,7 +345,6 @@ void ReferencePairs::correct(ParticleSet const& set, Body const& body, SlotOrder
         "dimension{} (they must span every direction) - use more particles across the body or a larger support",
         body.name, id, X[0], X[1], X[2], refusal.found, refusal.operation, dimension_, dimension_ == 1 ? "" : "s"));
   }
-  for (Index a = own_.first; a < own_.last; ++a) pairs_ += c.neighbours_of(a);
 }
 
 bool ReferencePairs::correct(Index a, std::size_t at, TooFewNeighbours& refusal) {

@@ -77,8 +77,6 @@ class ReferencePairs {
     std::function<void(double&)> allreduce_max;      ///< allreduce of the maximum
   };
   Filter make_filter(std::vector<double> const& volume, FilterShare const* share = nullptr) const;
-  std::int64_t pair_count() const { return pairs_; }
-  double stencil_fill() const { return fill_; }  ///< fraction of lanes with a neighbour, regular bodies
   /// Releases all data except the tables and the numbers of neighbours. No other member may be called afterwards.
   void keep_tables();
   std::size_t bytes() const;
@@ -141,8 +139,6 @@ class ReferencePairs {
   std::vector<std::int64_t> found_begin_;  // irregular bodies, from own_.first on
   std::vector<Index> found_;
   Corrections corrections_;
-  std::int64_t pairs_ = 0;
-  double fill_ = 0;
   std::vector<StencilEntry> entries_;
   std::vector<StencilPattern> patterns_;
   std::vector<std::int32_t> pattern_of_;

@@ -55,7 +55,7 @@ bool is_own_name(std::string_view folder, fs::path name) {
   if (name.extension() == ".part") name = name.stem();
   std::string const text = name.string(), stem = name.stem().string(), ending = name.extension().string();
   if (folder == "frames") return ending == ".hdf" && is_number(stem, 6);
-  if (folder == "pictures") return (ending == ".png" || ending == ".values") && is_picture(stem);
+  if (folder == "pictures") return ending == ".png" && is_picture(stem);
   if (folder == "checkpoints")
     return (ending == ".h5" && (stem == "failed" || is_number(stem, 9))) || text == durations_name;
   return text == kept_list || text.starts_with("packed-");

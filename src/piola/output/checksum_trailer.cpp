@@ -53,19 +53,7 @@ void CheckSum::add(std::uint32_t check_sum, std::uint64_t bytes) {
   value_ = product(value_, shift_by(bytes)) ^ check_sum;
 }
 
-std::string checksum_trailer_of(std::span<std::byte const> content) {
-  CheckSum sum;
-  sum.add(content);
-  return checksum_trailer_of(sum, content.size());
-}
-
 std::string checksum_trailer_of(CheckSum const& sum, std::uint64_t bytes) { return seal_text(sum.value(), bytes); }
-
-void append_checksum_trailer(std::vector<std::byte>& file) {
-  std::string const seal = checksum_trailer_of(file);
-  auto const bytes = std::as_bytes(std::span(seal));
-  file.insert(file.end(), bytes.begin(), bytes.end());
-}
 
 bool has_checksum_trailer(std::filesystem::path const& path) {
   std::string seal(seal_length, '\0');

@@ -6,7 +6,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace piola {
 
@@ -26,9 +25,7 @@ class CheckSum {
 
 /// The seal is the last line of a binary file: "piola seal: CRC-32 1a2b3c4d over 00000000000000001234 bytes\n". Readers
 /// of HDF5 ignore bytes after the end that a file states itself, so that sealed files stay ordinary HDF5 files.
-std::string checksum_trailer_of(std::span<std::byte const> content);
 std::string checksum_trailer_of(CheckSum const& sum, std::uint64_t bytes);
-void append_checksum_trailer(std::vector<std::byte>& file);
 
 /// Whether the last line of a file has the form of a seal; it is not verified. False for a file that cannot be read.
 bool has_checksum_trailer(std::filesystem::path const& path);

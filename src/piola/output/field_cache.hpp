@@ -25,6 +25,7 @@ class FieldCache {
   /// values[id * components + c]
   std::span<double const> values(std::string_view field);
   std::vector<FieldInfo> const& fields() const { return fields_; }
+  Formulation const& formulation() const { return formulation_; }
   ParticleSet const& particles() const { return particles_; }
   /// For Of::local, the ids of the local particles; nothing if this rank owns all.
   std::optional<std::vector<std::int64_t>> const& local_particles() const { return owned_; }

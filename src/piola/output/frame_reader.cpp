@@ -1,13 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/frame_reader.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/base/text.hpp"
 #include "piola/formulations/derived_fields.hpp"
+#include "piola/formulations/renamed_outputs.hpp"
+#include "piola/output/frames.hpp"
 #include "piola/output/hdf5.hpp"
+#include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace piola {
 namespace {
 
-std::string data_of(std::string const& field) { return "/VTKHDF/PointData/" + field; }
+constexpr char const* all_data = "/VTKHDF/PointData";
+
+std::string data_of(hdf5::Reader const& file, std::string const& field) {
+  return fmt::format("{}/{}", all_data, stored_output_name(field, file.names(all_data)));
+}
+
+std::uint64_t components_in(hdf5::Reader const& file, std::string const& field) {
+  std::uint64_t const columns = file.columns(data_of(file, field));
+  if (columns != 1 && columns != 3 && columns != 6 && columns != 9)
+    file.fail(field, fmt::format("has {} components (1, 3, 6 or 9 are known)", columns));
+  return columns;
+}
 
 }  // namespace
 
@@ -20,8 +37,12 @@ FrameReader::FrameReader(std::filesystem::path const& path) : file_(new File{hdf
   if (time.size() != 1) file_->reader.fail("TimeValue", "is not a single time");
   time_ = time.front();
   std::int64_t const dimension = file_->reader.integer("/", "dimension");
-  if (dimension < 1 || dimension > 3) file_->reader.fail("dimension", "is not 1, 2 or 3");
+  if (dimension < 1 || dimension > 3)
+    file_->reader.fail("dimension", fmt::format("is {} (1, 2 or 3 is known)", dimension));
   dimension_ = static_cast<int>(dimension);
+  auto const shape = file_->reader.shape_of_numbers("/VTKHDF/Points");
+  if (shape.size() != 2 || shape[1] != 3) file_->reader.fail("/VTKHDF/Points", "has not 3 numbers per row");
+  particles_ = shape[0];
 }
 FrameReader::FrameReader(FrameReader&&) noexcept = default;
 FrameReader& FrameReader::operator=(FrameReader&&) noexcept = default;
@@ -29,30 +50,65 @@ FrameReader::~FrameReader() = default;
 
 std::vector<float> FrameReader::points() const { return file_->reader.dataset<float>("/VTKHDF/Points", 3); }
 
-std::vector<std::string> FrameReader::fields() const { return file_->reader.names("/VTKHDF/PointData"); }
+std::vector<std::array<double, 3>> FrameReader::positions() const {
+  auto const all = points();
+  std::vector<std::array<double, 3>> x(particles_);
+  for (std::size_t i = 0; i < all.size(); ++i) x[i / 3][i % 3] = static_cast<double>(all[i]);
+  return x;
+}
+
+std::vector<int> FrameReader::bodies() const { return rows<std::int32_t>("Body"); }
+
+std::vector<double> FrameReader::rigid_poses() const {
+  return file_->reader.has(rigid_poses_name) ? file_->reader.dataset<double>(rigid_poses_name, 6)
+                                             : std::vector<double>();
+}
+
+std::vector<std::string> FrameReader::fields() const {
+  auto names = file_->reader.names(all_data);
+  for (std::string& name : names) name = current_output_name(name);
+  std::sort(names.begin(), names.end());
+  return names;
+}
 
 bool FrameReader::knows(std::string const& field) const { return !stored_field(field, fields()).empty(); }
 
+/// The stored field from which a field is read or computed.
+std::string FrameReader::source_of(std::string const& field) const {
+  auto const names = fields();
+  std::string stored = stored_field(field, names);
+  if (stored.empty())
+    throw InputError(fmt::format("{}: the frame has no field '{}' (it has {}) - {}", file_->reader.path().string(),
+                                 field, fmt::join(names, ", "), advice_for_name(field, names)));
+  return stored;
+}
+
+template <class T>
+std::vector<T> FrameReader::rows(std::string const& field) const {
+  std::uint64_t const columns = components_in(file_->reader, field);
+  auto values = file_->reader.dataset<T>(data_of(file_->reader, field), columns);
+  if (values.size() != particles_ * columns) file_->reader.fail(field, "has not one value per point");
+  return values;
+}
+
 FieldInfo FrameReader::info(std::string const& field) const {
-  if (stored_field(field, fields()) != field)
-    if (DerivedField const* const made = find_derived(field))
-      return {field, std::string(made->unit), components_of(*made)};
-  std::uint64_t const columns = file_->reader.columns(data_of(field));
-  if (columns != 1 && columns != 3 && columns != 6 && columns != 9)
-    file_->reader.fail(field, fmt::format("has {} components (1, 3, 6 or 9 are known)", columns));
+  if (source_of(field) != field) {
+    DerivedField const& derived = *find_derived(field);
+    return {field, std::string(derived.unit), components_of(derived)};
+  }
   bool const plain = field == "Volume";  // written without a unit
-  return {field, plain ? "" : file_->reader.text(data_of(field), "unit"), static_cast<int>(columns)};
+  return {field, plain ? "" : file_->reader.text(data_of(file_->reader, field), "unit"),
+          static_cast<int>(components_in(file_->reader, field))};
 }
 
 std::vector<float> FrameReader::values(std::string const& field) const {
-  std::string const stored = stored_field(field, fields());
-  if (DerivedField const* const made = find_derived(field); made != nullptr && stored == made->from) {
-    auto const from = file_->reader.dataset<double>(data_of(stored), file_->reader.columns(data_of(stored)));
-    std::vector<double> out(points().size() / 3 * static_cast<std::size_t>(components_of(*made)));
-    derive(*made, from, out);
-    return {out.begin(), out.end()};
-  }
-  return file_->reader.dataset<float>(data_of(field), file_->reader.columns(data_of(field)));
+  std::string const source = source_of(field);
+  if (source == field) return rows<float>(field);
+  DerivedField const& derived = *find_derived(field);
+  auto const from = rows<double>(source);
+  std::vector<double> out(particles_ * static_cast<std::size_t>(components_of(derived)));
+  derive(derived, from, out);
+  return {out.begin(), out.end()};
 }
 
 }  // namespace piola

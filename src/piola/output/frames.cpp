@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/frames.hpp"
-#include "piola/base/errors.hpp"
-#include "piola/base/text.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/derived_fields.hpp"
 #include "piola/formulations/field_signs.hpp"
@@ -9,7 +7,6 @@
 #include "piola/output/hdf5.hpp"
 #include <algorithm>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <numeric>
 
 namespace piola {
@@ -128,6 +125,10 @@ void FrameWriter::write(double time, FieldCache& cache, WithAll const& with_all)
   for (char const* count : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"})
     file.dataset<std::int64_t>(fmt::format("/VTKHDF/{}", count), std::array{cache.particles().size()});
   file.dataset<double>("/VTKHDF/FieldData/TimeValue", std::array{time});
+  std::vector<double> poses;
+  for (RigidState const& rigid : cache.formulation().rigids())
+    for (auto const& part : {rigid.centre, rigid.turn}) poses.insert(poses.end(), part.begin(), part.end());
+  if (!poses.empty()) file.dataset<double>(rigid_poses_name, poses, 6);
   FrameContent content(fields_, compress_, cache);
   with_all([&] {
     CollectiveTableWriter rows(&file);
@@ -164,68 +165,6 @@ std::vector<std::filesystem::path> FrameWriter::files() const {
   for (std::size_t k = 0; k < times_.size(); ++k)
     if (!std::binary_search(missing_.begin(), missing_.end(), frame_name(k))) list.push_back(folder_ / frame_name(k));
   return list;
-}
-
-namespace {
-
-/// One field of a frame, its shape checked against what the formulations write.
-void read_field(hdf5::Reader const& file, std::string const& field, Frame& frame) {
-  std::string const data = "/VTKHDF/PointData/" + field;
-  std::uint64_t const columns = file.columns(data);
-  if (columns != 1 && columns != 3 && columns != 6 && columns != 9)
-    file.fail(data, fmt::format("has {} components (1, 3, 6 or 9 are known)", columns));
-  frame.info = {field, field == "Volume" ? "1" : file.text(data, "unit"), static_cast<int>(columns)};
-  frame.values = file.dataset<double>(data, columns);
-  if (frame.values.size() != frame.points.size() * columns) file.fail(data, "has not one value per point");
-}
-
-/// Replaces the field that was read by one that follows from it.
-void derive_field(Frame& frame, DerivedField const& derived) {
-  int const components = components_of(derived);
-  std::vector<double> made(frame.points.size() * static_cast<std::size_t>(components));
-  derive(derived, frame.values, made);
-  frame.info = {std::string(derived.name), std::string(derived.unit), components};
-  frame.values = std::move(made);
-}
-
-/// A field of one component if the frame has it.
-std::vector<double> read_if_there(hdf5::Reader const& file, Frame const& frame, std::string const& field) {
-  auto const& names = frame.field_names;
-  if (std::find(names.begin(), names.end(), field) == names.end()) return {};
-  auto values = file.dataset<double>("/VTKHDF/PointData/" + field);
-  if (values.size() != frame.points.size()) file.fail(field, "has not one value per point");
-  return values;
-}
-
-}  // namespace
-
-Frame read_frame(std::filesystem::path const& path, std::string const& field) {
-  hdf5::Reader const file(path);
-  Frame frame;
-  auto const time = file.dataset<double>("/VTKHDF/FieldData/TimeValue");
-  if (time.size() != 1) file.fail("TimeValue", "is not a single time");
-  frame.time = time.front();
-  auto const points = file.dataset<float>("/VTKHDF/Points", 3);
-  frame.points.resize(points.size() / 3);
-  for (std::size_t i = 0; i < points.size(); ++i) frame.points[i / 3][i % 3] = static_cast<double>(points[i]);
-  frame.field_names = file.names("/VTKHDF/PointData");
-  std::string const stored = stored_field(field, frame.field_names);
-  if (stored.empty()) {
-    throw InputError(fmt::format("{}: the frame has no field '{}' (it has {}) - {}", path.string(), field,
-                                 fmt::join(frame.field_names, ", "), advice_for_name(field, frame.field_names)));
-  }
-  read_field(file, stored, frame);
-  if (stored != field) derive_field(frame, *find_derived(field));
-  frame.volume = file.dataset<double>("/VTKHDF/PointData/Volume");
-  frame.body = file.dataset<std::int32_t>("/VTKHDF/PointData/Body");
-  frame.damage = read_if_there(file, frame, "Damage");
-  frame.kernel_type = read_if_there(file, frame, "KernelType");
-  if (frame.volume.size() != frame.points.size()) file.fail("Volume", "has not one value per point");
-  if (frame.body.size() != frame.points.size()) file.fail("Body", "has not one value per point");
-  std::int64_t const dimension = file.integer("/", "dimension");
-  if (dimension < 1 || dimension > 3) file.fail("dimension", fmt::format("is {} (1, 2 or 3 is known)", dimension));
-  frame.dimension = static_cast<int>(dimension);
-  return frame;
 }
 
 std::vector<std::pair<double, std::filesystem::path>> list_frames(std::filesystem::path const& folder) {

@@ -3,7 +3,6 @@
 #include "piola/output/collective_table_writer.hpp"
 #include "piola/output/field_cache.hpp"
 #include "piola/output/frame_index.hpp"
-#include <array>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -40,6 +39,8 @@ class FrameWriter {
   FrameWriter(std::filesystem::path folder, std::vector<std::string> fields, bool compress);
   /// Calls a function that writes tables; with distributed particles, at a time when all ranks write theirs.
   using WithAll = std::function<void(std::function<void()> const&)>;
+  /// Changes the fields of the next frames.
+  void set_fields(std::vector<std::string> fields) { fields_ = std::move(fields); }
   /// Writes the next frame and its line in the index. Throws FileError; earlier frames stay as they are. `cache`: of
   /// the particles that this rank owns.
   void write(
@@ -62,25 +63,11 @@ class FrameWriter {
   FrameIndex index_;
 };
 
+/// Data set with the poses of free or rotating rigid shapes, see FrameReader::rigid_poses().
+inline constexpr char const* rigid_poses_name = "/VTKHDF/FieldData/RigidPoses";
+
 /// Path of frame `number` inside a results folder, "frames/000012.hdf".
 std::string frame_name(std::size_t number);
-
-/// One frame read back, as `piola render` needs it.
-struct Frame {
-  double time = 0;
-  std::vector<std::array<double, 3>> points;  ///< m
-  std::vector<std::string> field_names;
-  FieldInfo info;              ///< of the field that was asked for; its unit comes from the file
-  std::vector<double> values;  ///< values[i * components + c]
-  std::vector<double> volume;  ///< tributary volume, m^Dim
-  std::vector<int> body;
-  std::vector<double> damage, kernel_type;  ///< empty if the frame has none
-  int dimension = 3;
-};
-
-/// Reads points and one field. Throws FileError if the file is damaged, InputError (with the names there are) if the
-/// frame has no such field.
-Frame read_frame(std::filesystem::path const& path, std::string const& field);
 
 /// Frame files and times of a results folder, in order of time, from frames.hdf.series. Throws FileError.
 std::vector<std::pair<double, std::filesystem::path>> list_frames(std::filesystem::path const& folder);

@@ -2,6 +2,7 @@
 #include "piola/output/history.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/formulations/quantity_names.hpp"
+#include "piola/formulations/renamed_outputs.hpp"
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -24,7 +25,7 @@ bool ends_with_any(std::string_view name, std::initializer_list<std::string_view
 
 /// Columns that only one formulation has are named after what they are.
 std::string unit_of_extra(std::string_view name) {
-  if (ends_with_any(name, {"_energy", "_work", "_loss", "_heat"})) return "J";
+  if (ends_with_any(name, {"_energy", "_work", "_loss", "_heat", "_dissipation"})) return "J";
   if (name.starts_with("pressure") || ends_with_any(name, {"_stress", "_pressure"})) return "Pa";
   if (ends_with_any(name, {"_force"})) return "N";
   return "1";
@@ -34,6 +35,23 @@ std::string header(std::vector<HistoryColumn> const& columns) {
   std::string line;
   for (HistoryColumn const& c : columns) line += (line.empty() ? "" : ",") + c.name;
   return line + "\n";
+}
+
+/// The columns of a header by their present names.
+std::vector<HistoryColumn> columns_of(std::string const& line) {
+  std::vector<HistoryColumn> columns;
+  std::istringstream names(line);
+  for (std::string name; std::getline(names, name, ',');) columns.push_back({current_output_name(name), ""});
+  return columns;
+}
+
+/// Gives the columns of a history.csv their present names. Returns whether any had another one.
+bool use_current_columns(std::string& text) {
+  std::size_t const end = std::min(text.find('\n'), text.size());
+  std::string const before = text.substr(0, end) + "\n", now = header(columns_of(text.substr(0, end)));
+  if (now == before) return false;
+  text.replace(0, std::min(end + 1, text.size()), now);
+  return true;
 }
 
 std::vector<double> read_row(std::string_view line, std::size_t columns) {
@@ -72,8 +90,7 @@ HistoryTable read_history(std::filesystem::path const& path) {
   std::istringstream file(read_text_file(path));
   std::string line;
   if (!std::getline(file, line)) return table;
-  std::istringstream names(line);
-  for (std::string name; std::getline(names, name, ',');) table.columns.push_back({name, ""});
+  table.columns = columns_of(line);
   while (std::getline(file, line)) table.rows.push_back(read_row(line, table.columns.size()));
   return table;
 }
@@ -173,20 +190,23 @@ HistoryFile::HistoryFile(std::filesystem::path path, std::vector<HistoryColumn> 
   table_.columns = std::move(columns);
   std::string const first = header(table_.columns);
   bool const there = std::filesystem::exists(path_);
-  std::string const text = there ? read_text_file(path_) : first;
+  std::string text = there ? read_text_file(path_) : first;
+  std::size_t const size = text.size();
+  CheckSum sum;
+  if (mark) sum.add(std::string_view(text).substr(0, mark->bytes));
+  bool const whole = mark && mark->bytes <= size && sum.value() == mark->check_sum;
+  if (whole) text.resize(mark->bytes);
+  bool const renamed = !text.starts_with(first) && use_current_columns(text);
   if (!text.starts_with(first)) {
     throw FileError(fmt::format("{}: has other columns than this run would write - run the case again in a new folder",
                                 path_.string()));
   }
-  CheckSum sum;
-  if (mark) sum.add(std::string_view(text).substr(0, mark->bytes));
-  bool const whole = mark && mark->bytes <= text.size() && sum.value() == mark->check_sum;
-  take_rows(whole ? std::string_view(text).substr(0, mark->bytes) : std::string_view(text), time);
-  if (!there || bytes_ != text.size()) write_whole_file(path_, std::string_view(text).substr(0, bytes_));
+  take_rows(text, time);
+  if (!there || renamed || bytes_ != size) write_whole_file(path_, std::string_view(text).substr(0, bytes_));
   if (mark && !whole) {
     complaint_ = fmt::format("{}: {} rows up to t = {} s where the checkpoint counts on {}; {}", path_.string(),
                              table_.rows.size(), time, mark->rows,
-                             there ? "rows are missing or were changed" : "the file was missing and begins anew");
+                             there ? "rows are missing or were changed" : "the file was missing and starts here");
   }
   open(Opening::append);
 }

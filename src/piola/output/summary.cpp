@@ -22,7 +22,7 @@ void add_ranks(Summary const& s, nlohmann::ordered_json& document) {
                                  {"bytes", rank.bytes},
                                  {"collectives", rank.collectives},
                                  {"message_seconds", rank.message_seconds},
-                                 {"bytes_to_all", rank.replicated_bytes},
+                                 {"replicated_bytes", rank.replicated_bytes},
                                  {"collective_seconds", rank.collective_seconds},
                                  {"idle_seconds", rank.idle_seconds}});
   if (s.repartition_statistics)

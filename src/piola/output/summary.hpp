@@ -71,6 +71,8 @@ struct Summary {
   std::optional<std::vector<GuardNumbers>> guards;  ///< nothing: they were off
 };
 
+inline constexpr std::uint64_t most_summary_bytes = 100'000'000;  ///< of a file that is read
+
 /// The JSON text; numbers that are not finite become null.
 std::string to_json(Summary const& summary);
 /// Throws FileError.

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/particles/ordering.hpp"
 #include "piola/base/contracts.hpp"
-#include "piola/math/hash.hpp"
 #include <algorithm>
 #include <array>
-#include <numeric>
-#include <tuple>
-#include <utility>
 
 namespace piola {
 
@@ -51,62 +47,6 @@ std::array<std::size_t, 3> row_axes(Body const& body) {
   return {longest, longest == 0 ? 1U : 0U, longest == 2 ? 1U : 2U};
 }
 
-namespace {
-
-Shuffle shuffle_of_tests;
-
-constexpr std::size_t tile_size = exec::block_size, leaf_size = exec::leaf_size;
-
-/// Permutation of `count` places: tiles are permuted within their kind; tiles of a negative kind and an incomplete tile
-/// stay.
-std::vector<std::size_t> dealt_places(std::size_t count, Shuffle const& shuffle, std::vector<int> const& kind,
-                                      std::size_t tile) {
-  struct SlotPermutation {
-    int kind;
-    std::uint64_t owner, place;
-    std::size_t tile;
-  };
-  std::vector<SlotPermutation> tiles;
-  std::vector<std::size_t> places;  // kind after kind
-  for (std::size_t k = 0; k < kind.size(); ++k) {
-    if (kind[k] < 0) continue;
-    std::uint64_t const random = hash_mix(shuffle.seed * 0x9E3779B97F4A7C15U + k);
-    tiles.push_back({kind[k], random % static_cast<std::uint64_t>(shuffle.owners), hash_mix(random), k});
-    places.push_back(k);
-  }
-  std::sort(tiles.begin(), tiles.end(), [](SlotPermutation const& a, SlotPermutation const& b) {
-    return std::tie(a.kind, a.owner, a.place, a.tile) < std::tie(b.kind, b.owner, b.place, b.tile);
-  });
-  std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) { return kind[a] < kind[b]; });
-  std::vector<std::size_t> numbers(count);
-  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
-  for (std::size_t k = 0; k < tiles.size(); ++k) {
-    if (shuffle.moved != nullptr && tiles[k].tile != places[k]) ++*shuffle.moved;
-    auto const to = numbers.begin() + static_cast<std::ptrdiff_t>(places[k] * tile);
-    std::iota(to, to + static_cast<std::ptrdiff_t>(tile), tiles[k].tile * tile);
-  }
-  return numbers;
-}
-
-SlotOrder dealt_out(SlotOrder const& order, Shuffle const& shuffle, std::vector<int> const& kind, std::size_t tile) {
-  SlotOrder dealt = order;
-  auto const numbers = dealt_places(static_cast<std::size_t>(order.particles), shuffle, kind, tile);
-  for (std::size_t k = 0; k < numbers.size(); ++k) dealt.id[k] = order.id[numbers[k]];
-  return dealt;
-}
-
-std::vector<int> one_kind(std::size_t count, std::size_t tile) { return std::vector<int>(count / tile, 0); }
-
-}  // namespace
-
-Shuffle set_shuffle(Shuffle const& shuffle) { return std::exchange(shuffle_of_tests, shuffle); }
-
-Shuffle const& current_shuffle() { return shuffle_of_tests; }
-
-std::vector<std::size_t> shuffled_indices(std::size_t count, Shuffle const& shuffle) {
-  return dealt_places(count, shuffle, shuffle.owners > 0 ? one_kind(count, tile_size) : std::vector<int>{}, tile_size);
-}
-
 SlotOrder pencil_order(ParticleSet const& set, Body const& body) {
   constexpr std::size_t rows = 8;
   auto const axis = row_axes(body);
@@ -120,27 +60,5 @@ SlotOrder pencil_order(ParticleSet const& set, Body const& body) {
         for (std::size_t y = j; y < std::min(j + rows, wide); ++y) rank[z * wide + y] = next++;
   return order_by_rows(set, body, axis, rank);
 }
-
-SlotOrder shuffled_order(ParticleSet const& set, Body const& body) {
-  SlotOrder order = pencil_order(set, body);
-  if (shuffle_of_tests.owners == 0) return order;
-  auto const kinds = one_kind(static_cast<std::size_t>(order.particles), leaf_size);
-  return dealt_out(order, shuffle_of_tests, kinds, leaf_size);
-}
-
-SlotOrder shuffled_within_parts(ParticleSet const& set, SlotOrder const& order) {
-  if (shuffle_of_tests.owners == 0) return order;
-  std::vector<int> kind = one_kind(static_cast<std::size_t>(order.particles), tile_size);
-  for (std::size_t k = 0; k < kind.size(); ++k) {
-    auto const part = [&](std::size_t slot) {
-      return static_cast<int>(part_of(set, static_cast<std::size_t>(order.id[slot])));
-    };
-    int const first = part(k * tile_size);
-    kind[k] = part((k + 1) * tile_size - 1) == first ? first : -1;
-  }
-  return dealt_out(order, shuffle_of_tests, kind, tile_size);
-}
-
-bool shuffle_forces_lists() { return shuffle_of_tests.owners > 0 || shuffle_of_tests.lists; }
 
 }  // namespace piola

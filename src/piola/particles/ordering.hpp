@@ -28,33 +28,4 @@ std::array<std::size_t, 3> row_axes(Body const& body);
 
 SlotOrder pencil_order(ParticleSet const& set, Body const& body);
 
-/// Random permutation of particles, to test that results do not depend on their order. Tiles are assigned to `owners`
-/// at random; each owner keeps its tiles contiguous, in a random order. Tiles of 64 particles stay intact, because sums
-/// over blocks start with them; an incomplete tile stays at the end.
-struct Shuffle {
-  int owners = 0;  ///< 0: no permutation
-  std::uint64_t seed = 1;
-  std::int64_t* moved = nullptr;  ///< counts the tiles that the permutation has moved; nullptr: not counted
-  /// Formulations use loops over neighbour lists even for unpermuted lattices, as the reference for permuted bodies,
-  /// which cannot use lattice loops.
-  bool lists = false;
-};
-/// The numbers 0 ... count - 1 with their tiles permuted.
-std::vector<std::size_t> shuffled_indices(std::size_t count, Shuffle const& shuffle);
-/// The present shuffle. Copy it to make orders later.
-Shuffle const& current_shuffle();
-/// Sets the shuffle of later shuffled_order() calls and returns the previous one. Not thread-safe against
-/// shuffled_order().
-Shuffle set_shuffle(Shuffle const& shuffle);
-
-/// pencil_order(), permuted by the shuffle in leaves of 16 slots (exec::leaf_size). For formulations whose results do
-/// not depend on the order.
-SlotOrder shuffled_order(ParticleSet const& set, Body const& body);
-
-/// As shuffled_order(), for an order in which the particles of a part are contiguous. Tiles are permuted within a part;
-/// tiles with particles of several parts stay.
-SlotOrder shuffled_within_parts(ParticleSet const& set, SlotOrder const& order);
-/// Whether bodies are permuted, or the reference for permuted ones: see Shuffle::lists.
-bool shuffle_forces_lists();
-
 }  // namespace piola

@@ -38,14 +38,14 @@ std::optional<Up> against_gravity(CaseSpec const& spec) {
   return std::nullopt;
 }
 
-/// Sets the pose of a shape.
-void put(RigidShape& shape, RigidState const& state) {
-  Mat<3> const turn = matrix_of(turn_by({{state.turn[0], state.turn[1], state.turn[2]}}));
+/// Sets the pose of a shape: centre and rotation vector.
+void put(RigidShape& shape, std::span<double const> pose) {
+  Mat<3> const turn = matrix_of(turn_by({{pose[3], pose[4], pose[5]}}));
   auto const turned = [&](std::array<double, 3> const& a) {
     Vec<3> const b = turn * Vec<3>{{a[0], a[1], a[2]}};
     return std::array{b[0], b[1], b[2]};
   };
-  shape.centre = state.centre;
+  std::copy_n(pose.begin(), 3, shape.centre.begin());
   shape.axis = turned(shape.axis);
   for (auto& edge : shape.edges) edge = turned(edge);
 }
@@ -68,17 +68,17 @@ Up upwards(CaseSpec const& spec) {
   return Up::y;
 }
 
-std::vector<RigidShape> shapes_at(std::vector<RigidSpec> const& rigids, double time,
-                                  std::vector<RigidState> const& states) {
+std::vector<RigidShape> shapes_at(std::vector<RigidSpec> const& rigids, double time, std::span<double const> poses) {
   // Midpoints of this number of intervals: exact for the constant and linear velocities of most cases.
   constexpr int intervals = 1000;
   std::vector<RigidShape> shapes;
   for (RigidSpec const& rigid : rigids) {
     RigidShape shape = rigid;
     if (shape.turns()) {
-      auto const state =
-          std::find_if(states.begin(), states.end(), [&](RigidState const& known) { return known.name == shape.name; });
-      if (state != states.end()) put(shape, *state);
+      if (poses.size() >= 6) {
+        put(shape, poses.first(6));
+        poses = poses.subspan(6);
+      }
       shapes.push_back(std::move(shape));
       continue;
     }
@@ -103,7 +103,7 @@ Representation representation_of(std::string_view word) {
 Appearance appearance_of(CaseSpec const& spec, PictureSpec const& picture) {
   AppearanceSpec const& said = picture.appearance;
   Appearance appearance;
-  appearance.as.assign(spec.bodies.size(), representation_of(said.as));
+  appearance.as.assign(std::max<std::size_t>(spec.bodies.size(), 1), representation_of(said.as));
   for (AppearanceSpec::BodyInput const& one : said.of_body)
     for (std::size_t b = 0; b < spec.bodies.size(); ++b)
       if (spec.bodies[b].name == one.body) appearance.as[b] = representation_of(one.as);
@@ -161,6 +161,14 @@ std::vector<std::uint8_t> loose_particles(std::span<double const> damage, std::s
     for (std::size_t i = 0; i < std::min(particles, values.size()); ++i)
       if (values[i] >= all_of_it) loose[i] = 1;
   return loose;
+}
+
+std::vector<std::uint8_t> loose_particles(FrameReader const& frame) {
+  auto const numbers = [&](char const* field) {
+    auto const values = frame.knows(field) ? frame.values(field) : std::vector<float>();
+    return std::vector<double>(values.begin(), values.end());
+  };
+  return loose_particles(numbers("Damage"), numbers("KernelType"), frame.particles());
 }
 
 }  // namespace piola

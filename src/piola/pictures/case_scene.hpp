@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/drawing/picture.hpp"
 #include "piola/input/case_spec.hpp"
-#include "piola/mechanics/rigid_state.hpp"
+#include "piola/output/frame_reader.hpp"
 #include <cstdint>
 #include <span>
 #include <string>
@@ -15,10 +15,10 @@ namespace piola {
 /// along an axis of all particles of a body); else the outward normal of a resting rigid plane across an axis; else y.
 Up upwards(CaseSpec const& spec);
 
-/// The rigid shapes of a case at a time [s]. Free or rotating shapes are placed by `states`, if present, else as at the
-/// start.
+/// The rigid shapes of a case at a time [s]. Free or rotating shapes have the poses of FrameReader::rigid_poses();
+/// those without one stand as at the start.
 std::vector<RigidShape> shapes_at(std::vector<RigidSpec> const& rigids, double time,
-                                  std::vector<RigidState> const& states = {});
+                                  std::span<double const> poses = {});
 
 /// The representation of a word of representation_words.
 Representation representation_of(std::string_view word);
@@ -46,5 +46,7 @@ std::vector<std::vector<Index>> current_torn_cells(std::span<ReferenceMesh const
 /// none.
 std::vector<std::uint8_t> loose_particles(std::span<double const> damage, std::span<double const> kernel_type,
                                           std::size_t particles);
+/// The same for the particles of a frame.
+std::vector<std::uint8_t> loose_particles(FrameReader const& frame);
 
 }  // namespace piola

@@ -22,10 +22,10 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 8> meeting_c
                                                                                         {"contact_overlap", "1"},
                                                                                         {"contact_points", "1"},
                                                                                         {"friction_heat", "J"},
-                                                                                        {"contact_dissipation", "J"},
+                                                                                        {"chatter_damping_loss", "J"},
                                                                                         {"tie_energy", "J"},
-                                                                                        {"tie_heat", "J"},
-                                                                                        {"tie_failed", "1"}}};
+                                                                                        {"tie_dissipation", "J"},
+                                                                                        {"tie_failed_fraction", "1"}}};
 
 HistoryTable history_of(std::filesystem::path const& folder) {
   HistoryTable table = read_history(folder / "history.csv");
@@ -51,7 +51,7 @@ std::vector<std::string> ledger(HistoryTable const& table) {
     bool const whole = column.name.find('.') == std::string::npos;
     bool const booked = column.name == "external_work" || column.name == "plastic_work" ||
                         column.name == "contact_energy" || column.name.ends_with("_loss") ||
-                        column.name.ends_with("_heat");
+                        column.name.ends_with("_heat") || column.name.ends_with("_dissipation");
     if (!whole || !booked) continue;
     auto const values = table.values(column.name);
     if (std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v) && std::abs(v) > 0; }))

@@ -3,7 +3,6 @@
 #include "piola/pictures/picture_overrides.hpp"
 #include <array>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,16 +22,15 @@ struct RenderOptions {
   /// Folders of other runs, whose frames nearest in time are drawn in adjacent panels, with one range and one scale.
   std::vector<std::filesystem::path> beside = {};
   std::vector<std::string> as = {};  ///< "skin" for all bodies, "BODY=balls" for one, in addition to the case
-  std::optional<CutPlane> cut = {};  ///< replaces that of the case
-  bool panels = false;               ///< draw the panels of the case instead of the field
-  bool outline = true;               ///< false: no outline
+  std::optional<AppearanceSpec::Cut> cut = {};  ///< replaces that of the case
+  bool panels = false;                          ///< draw the panels of the case instead of the field
+  bool outline = true;                          ///< false: no outline
 };
 
 /// Draws frames of a run to FIELD-000000.png, or FIELD-x-000000.png of a component, with the number of the frame,
-/// including the rigid shapes of the case. All frames have one colour range and one window. `drawn` is called for each.
-/// Returns the paths. Throws FileError, or InputError if there are no frames, no such frame, field or component.
-std::vector<std::filesystem::path> render_frames(std::filesystem::path const& folder, RenderOptions const& options,
-                                                 std::function<void(std::filesystem::path const&)> const& drawn = {});
+/// including the rigid shapes of the case. All frames have one colour range and one window. Returns the paths. Throws
+/// FileError, or InputError if there are no frames, no such frame, field or component.
+std::vector<std::filesystem::path> render_frames(std::filesystem::path const& folder, RenderOptions const& options);
 
 /// Draws the frames nearest to these times [s] into one picture, FIELD-times.png, with one bar. Returns its path.
 /// Throws as render_frames does.

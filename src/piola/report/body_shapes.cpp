@@ -2,8 +2,8 @@
 #include "piola/report/body_shapes.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/math/symmetric_eigen.hpp"
-#include "piola/pictures/case_scene.hpp"
 #include "piola/observers/results_folder.hpp"
+#include "piola/pictures/case_scene.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -19,20 +19,7 @@ struct ParticlesNow {
   }
 };
 
-ParticlesNow particles_in(FrameReader const& frame) {
-  auto const points = frame.points();
-  auto const known = frame.fields();
-  auto const numbers = [&](char const* field) {
-    if (std::find(known.begin(), known.end(), field) == known.end()) return std::vector<double>();
-    auto const values = frame.values(field);
-    return std::vector<double>(values.begin(), values.end());
-  };
-  ParticlesNow now{std::vector<Point3>(points.size() / 3), {}};
-  for (std::size_t i = 0; i < now.x.size(); ++i)
-    for (std::size_t c = 0; c < 3; ++c) now.x[i][c] = static_cast<double>(points[3 * i + c]);
-  now.loose = loose_particles(numbers("Damage"), numbers("KernelType"), now.x.size());
-  return now;
-}
+ParticlesNow particles_in(FrameReader const& frame) { return {frame.positions(), loose_particles(frame)}; }
 
 /// V of F = V R.
 SymMat<3> left_stretch(Mat<3> const& F) {

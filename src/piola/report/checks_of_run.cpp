@@ -50,7 +50,7 @@ std::vector<VerificationRow> rows_of_run(RunFolder const& run, fs::path const& c
   if (one.summary.empty()) return {};
   std::vector<Check> alone;
   for (Check const& check : file.checks)
-    if (check.as == Check::As::value) alone.push_back(check);
+    if (check.as == Check::Comparison::value) alone.push_back(check);
   return compare(run.title, alone, {one});
 }
 

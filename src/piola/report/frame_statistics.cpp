@@ -183,6 +183,7 @@ FrameStatistics survey_frames(RunFolder const& run, std::vector<std::size_t> con
   for (std::size_t const k : frames) {
     FrameReader const frame(run.frames[k].second);
     survey.times.push_back(frame.time());
+    survey.rigid_poses.push_back(frame.rigid_poses());
     auto const points = frame.points();
     if (points.size() != 3 * survey.particles)
       throw FileError(fmt::format("{}: has other particles than the first frame - it belongs to another run",

@@ -23,8 +23,9 @@ struct ShownField {
 struct FrameStatistics {
   int dimension = 3;
   std::size_t particles = 0;
-  std::vector<std::size_t> frames = {};  ///< numbers of the frames surveyed
-  std::vector<double> times = {};        ///< of these frames [s]
+  std::vector<std::size_t> frames = {};               ///< numbers of the frames surveyed
+  std::vector<double> times = {};                     ///< of these frames [s]
+  std::vector<std::vector<double>> rigid_poses = {};  ///< in each, see FrameReader::rigid_poses()
   std::vector<ShownField> fields = {};
   std::array<double, 3> low{}, high{};              ///< the box that the page shows [m]
   std::array<double, 3> stage_low{}, stage_high{};  ///< the box of the first frame [m]

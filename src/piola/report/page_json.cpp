@@ -189,8 +189,10 @@ Json about_frames(RunFolder const& run, FrameStatistics const& survey, Plan cons
               {"shapes", Json::array()},
               {"poses", Json::array()},
               {"maps", {{"rising", colours_between(0, 1)}, {"around zero", colours_between(-1, 1)}}}};
-  for (RigidShape const& shape : run.rigid_shapes(0)) frames["shapes"].push_back(shape_json(shape));
-  for (std::size_t const k : plan.frames) frames["poses"].push_back(poses_json(run.rigid_shapes(survey.times[k])));
+  auto const rigids = run.spec ? run.spec->rigids : std::vector<RigidSpec>();
+  for (RigidShape const& shape : shapes_at(rigids, 0)) frames["shapes"].push_back(shape_json(shape));
+  for (std::size_t const k : plan.frames)
+    frames["poses"].push_back(poses_json(shapes_at(rigids, survey.times[k], survey.rigid_poses[k])));
   return frames;
 }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/run_folder.hpp"
 #include "piola/base/errors.hpp"
+#include "piola/observers/results_folder.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/output/folder_lock.hpp"
 #include "piola/output/frames.hpp"
-#include "piola/pictures/case_scene.hpp"
-#include "piola/observers/results_folder.hpp"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -62,10 +61,6 @@ bool goes_on(RunFolder const& run) {
 
 }  // namespace
 
-std::vector<RigidShape> RunFolder::rigid_shapes(double time) const {
-  return spec ? shapes_at(spec->rigids, time, rigids->at(time)) : std::vector<RigidShape>{};
-}
-
 void read_texts(RunFolder& run) {
   std::error_code error;
   run.log = text_if_there(run.path / "log.txt");
@@ -89,7 +84,7 @@ RunFolder open_run(fs::path const& folder) {
                     folder.string()));
   RunFolder run{.path = folder};
   read_texts(run);
-  if ((run.spec = case_in_results(folder))) run.rigids.emplace(folder / "history.csv", run.spec->rigids);
+  run.spec = case_in_results(folder);
   if (has_frames) run.frames = list_frames(folder);
   return run;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/input/case_spec.hpp"
-#include "piola/pictures/rigid_history.hpp"
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -23,10 +22,6 @@ struct RunFolder {
   std::string failure = {};           ///< why it failed; empty: it did not
   std::optional<CaseSpec> spec = {};  ///< nothing: there is no case, or it cannot be read any more
   std::vector<std::pair<double, std::filesystem::path>> frames = {};  ///< times [s] and files
-  std::optional<RigidHistory> rigids = {};                            ///< where there is a case
-
-  /// The rigid shapes at a time [s].
-  std::vector<RigidShape> rigid_shapes(double time) const;
 };
 
 /// Throws InputError if the folder holds no run, FileError if its files cannot be read.

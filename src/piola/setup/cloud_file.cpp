@@ -4,7 +4,7 @@
 #include "piola/base/text.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/output/checksum_trailer.hpp"
-#include "piola/output/frames.hpp"
+#include "piola/output/frame_reader.hpp"
 #include "piola/setup/cloud_checks.hpp"
 #include "piola/setup/cloud_datasets.hpp"
 #include "piola/setup/cloud_table.hpp"
@@ -37,18 +37,20 @@ CloudTable read_cloud_frame(std::string const& path, CloudOptions const& options
   if (options.length_unit != 1)
     problems.push_back(path + ": is a frame, whose lengths are in m, and the case gives a unit for it - leave it out");
   try {
-    Frame frame = read_frame(path, "Volume");
-    table.dimension = frame.dimension;
-    table.X = std::move(frame.points);
-    table.volume = std::move(frame.volume);
-    int const last = frame.body.empty() ? -1 : *std::max_element(frame.body.begin(), frame.body.end());
-    int const first = frame.body.empty() ? 0 : *std::min_element(frame.body.begin(), frame.body.end());
+    FrameReader const frame(path);
+    auto const volume = frame.values("Volume");
+    auto body = frame.bodies();
+    table.dimension = frame.dimension();
+    table.X = frame.positions();
+    table.volume.assign(volume.begin(), volume.end());
+    int const last = body.empty() ? -1 : *std::max_element(body.begin(), body.end());
+    int const first = body.empty() ? 0 : *std::min_element(body.begin(), body.end());
     if (first < 0 || static_cast<std::size_t>(last) + 1 > std::max<std::size_t>(table.X.size(), 1)) {
       problems.push_back(path + ": numbers its bodies in a way no frame does - the file is damaged");
       return {};
     }
     for (int b = 0; b <= last; ++b) table.bodies.push_back(std::to_string(b));
-    table.body = std::move(frame.body);
+    table.body = std::move(body);
   } catch (FileError const& error) {
     problems.emplace_back(error.what());
   } catch (InputError const&) {

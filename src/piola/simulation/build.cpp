@@ -24,12 +24,6 @@
 namespace piola {
 namespace {
 
-/// Calls visit(id) for every particle of a body.
-template <class Visit>
-void for_each_id(Body const& body, Visit const& visit) {
-  for (std::int64_t id = body.first; id < body.last; ++id) visit(static_cast<std::size_t>(id));
-}
-
 template <std::size_t N>
 std::array<double, N> values_at(std::array<Expression, N> const& formulas, std::array<double, 3> const& X) {
   std::array<double, N> out{};
@@ -132,7 +126,7 @@ Load load_of(LoadSpec const& spec, CaseSpec const& from, ParticleSet const& part
             .value = spec.value,
             .until = spec.until,
             .pressure = spec.kind == LoadSpec::Kind::pressure,
-            .follows = spec.follows,
+            .follows = spec.follower,
             .name = spec.name};
   load.about = middle_of(load.particles, particles);
   if (!spec.on_face()) {
@@ -263,7 +257,8 @@ Assembly assemble(CaseSpec const& spec, ParticleSet particles) {
   for (SupportSpec const& support : spec.supports) a.supports.push_back(support_of(support, spec, a.particles));
   for (LoadSpec const& load : spec.loads) a.loads.push_back(load_of(load, spec, a.particles));
   for (MirrorSpec const& mirror : spec.mirrors)
-    a.mirrors.push_back({index_of_body(mirror.body, a.particles), mirror.face.axis, mirror.face.upper, mirror.skew});
+    a.mirrors.push_back(
+        {index_of_body(mirror.body, a.particles), mirror.face.axis, mirror.face.upper, mirror.antisymmetric});
   a.rigid_shapes.assign(spec.rigids.begin(), spec.rigids.end());
   if (spec.contact) a.contact = *spec.contact;
   a.contact_pairs.assign(spec.contact_pairs.begin(), spec.contact_pairs.end());
@@ -281,7 +276,6 @@ Simulation build_from(CaseSpec spec, Assembly assembly) {
     simulation.mass += mass_of(spec.bodies[b], assembly.particles.bodies[b], assembly.particles);
   }
   for (RigidShape const& shape : assembly.rigid_shapes) simulation.mass += shape.mass;
-  refuse_unsupported_on_ranks(assembly);
   agree_to_continue();
   require_identical_case(assembly);
   exec_host::set_lazy_allocation(comm::size());

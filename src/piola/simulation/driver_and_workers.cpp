@@ -191,7 +191,7 @@ class DriverProxy final : public Formulation, public SetUpChecked {
   int stages_per_step() const override { return own().stages_per_step(); }
   std::vector<std::pair<std::string, double>> timings() const override {
     auto all = own().timings();
-    all.emplace_back("gathering", gathered);
+    all.emplace_back("gather", gathered);
     return all;
   }
   std::vector<SetUpCheck> set_up_checks() const override { return set_up_checks_of(own()); }
@@ -247,25 +247,6 @@ void execute_command(Formulation& formulation, Command const& order) {
 
 }  // namespace
 
-void refuse_unsupported_on_ranks(Assembly const& assembly, int count) {
-  if (count < 2) return;
-  Problems problems;
-  auto const refuse = [&](std::string const& what) {
-    problems.add({}, fmt::format("{} on one rank (asked for {}) - start it without mpirun", what, count));
-  };
-  auto const shares = [](FormulationSpec const& spec) {
-    auto const info = find_formulation(spec.name);
-    return info && info->on_ranks;
-  };
-  // Formulations that do not run on ranks are allowed beside one that does; each rank then computes all of their
-  // bodies.
-  bool const any = std::any_of(assembly.formulations.begin(), assembly.formulations.end(), shares);
-  for (std::size_t k = 0; k < assembly.formulations.size() && !any; ++k)
-    refuse(fmt::format("body '{}': formulation \"{}\" runs", assembly.particles.bodies[k].name,
-                       assembly.formulations[k].name));
-  problems.raise_if_any();
-}
-
 void require_identical_case(Assembly const& assembly) {
   if (!comm::is_parallel()) return;
   std::uint64_t print = 14'695'981'039'346'656'037ULL;  // Fowler, Noll and Vo's, word by word
@@ -303,10 +284,10 @@ void evaluate_probes_collectively(double time, std::function<void()> const& look
   look();
 }
 
-void write_frame_collectively(std::function<void()> const& write) {
+void write_frame_collectively(bool failed, std::function<void()> const& write) {
   GatherTimer const gathering;
   ExcludeFromStepTraffic const aside;
-  if (comm::is_parallel() && comm::rank() == 0) send({Command::What::frame});
+  if (comm::is_parallel() && comm::rank() == 0) send({.what = Command::What::frame, .code = failed ? 1 : 0});
   write();
 }
 
@@ -328,7 +309,8 @@ int follow(Simulation& simulation) {
     } else if (order.what == Command::What::frame) {
       FieldCache cache(formulation, simulation.particles, FieldCache::Of::local);
       CollectiveTableWriter part(nullptr);
-      FrameContent(simulation.spec.output.frame_fields, simulation.spec.output.compress, cache).put(part);
+      OutputSpec const& output = simulation.spec.output;
+      FrameContent(fields_of_frames(output, order.code != 0), output.compress, cache).put(part);
     } else {
       execute_command(formulation, order);
     }

@@ -15,9 +15,6 @@
 /// (conducted, follow). Only rank 0 has the loop, the observers, the files and the messages.
 namespace piola {
 
-/// Throws InputError with all settings of this case that run on one rank only; does nothing on one rank.
-void refuse_unsupported_on_ranks(Assembly const& assembly, int count = comm::size());
-
 /// Throws ranks::Disagreement on all ranks unless all have generated identical particles and materials. Collective.
 void require_identical_case(Assembly const& assembly);
 
@@ -33,8 +30,8 @@ std::unique_ptr<Formulation> driven_by_root(std::unique_ptr<Formulation> formula
 void evaluate_probes_collectively(double time, std::function<void()> const& look);
 
 /// On rank 0 of several: makes the other ranks write their part of a frame, then calls write(). Otherwise only calls
-/// write().
-void write_frame_collectively(std::function<void()> const& write);
+/// write(). `failed`: see fields_of_frames().
+void write_frame_collectively(bool failed, std::function<void()> const& write);
 
 /// On the other ranks: executes the commands of rank 0 until it sends the end; returns the exit code that it sends.
 int follow(Simulation& simulation);

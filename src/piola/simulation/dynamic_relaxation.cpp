@@ -26,7 +26,7 @@ constexpr double steps_of_short_stop = 3;
 }  // namespace
 
 Relaxation::Relaxation(RunSpec const& run, ParticleSet const& particles, double mass)
-    : rate_(run.damping), relax_(run.relax), limit_(run.rest), particles_(particles), mass_(mass) {}
+    : rate_(run.damping), relax_(run.relax), limit_(run.relax_tolerance), particles_(particles), mass_(mass) {}
 
 void Relaxation::start(Formulation& formulation) const {
   if (relax_) formulation.damp(0);
@@ -105,8 +105,8 @@ void Relaxation::stop(Formulation& formulation) {
 }
 
 std::string Relaxation::text() const {
-  std::string text =
-      fmt::format("forces out of balance are {:.2g} of the largest (run.rest is {})", rest_.residual, limit_);
+  std::string text = fmt::format("forces out of balance are {:.2g} of the largest (run.relax_tolerance is {})",
+                                 rest_.residual, limit_);
   if (rest_.left > 0)
     text +=
         fmt::format(", what is left of the displacement is about {:.2g} of it (allowed: {})", rest_.left, most_left);
@@ -126,7 +126,7 @@ StopRequest Relaxation::objection_at_end() const {
   StopRequest o;
   o.failure.what = "relaxation is not at rest at run.end";
   o.failure.values = {{"forces out of balance, of the largest", rest_.residual},
-                      {"allowed by run.rest", limit_},
+                      {"allowed by run.relax_tolerance", limit_},
                       {"stops", static_cast<double>(rest_.stops)}};
   if (rest_.left > 0)
     o.failure.values.insert(o.failure.values.end(),

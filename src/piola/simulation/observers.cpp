@@ -120,11 +120,13 @@ void HistoryObserver::load(NamedState& reader, TimeState const& moment) {
 FrameObserver::FrameObserver(Results results)
     : results_(std::move(results)),
       schedule_(results_.spec.output.frames_every),
-      writer_(results_.folder, results_.spec.output.frame_fields, results_.spec.output.compress) {}
+      writer_(results_.folder, {}, results_.spec.output.compress) {}
 
-void FrameObserver::write(Formulation const& formulation, double time) {
+void FrameObserver::write(Formulation const& formulation, double time, bool failed) {
+  if (!times().empty() && times().back() == time) return;
+  writer_.set_fields(fields_of_frames(results_.spec.output, failed));
   FieldCache cache(formulation, results_.particles, FieldCache::Of::local);
-  writer_.write(time, cache, &write_frame_collectively);
+  writer_.write(time, cache, [&](auto const& put) { write_frame_collectively(failed, put); });
 }
 
 void FrameObserver::observe(Formulation const& formulation, TimeState const& moment) {
@@ -132,9 +134,11 @@ void FrameObserver::observe(Formulation const& formulation, TimeState const& mom
 }
 
 void FrameObserver::finish(Formulation const& formulation, TimeState const& moment, RunStatus ending) {
-  bool const written = !writer_.times().empty() && writer_.times().back() == moment.time;
-  bool const wanted = ending == RunStatus::failed || (ending == RunStatus::completed && schedule_.ever());
-  if (wanted && !written) write(formulation, moment.time);
+  bool const failed = ending == RunStatus::failed;
+  // A frame of pictures alone has not all fields.
+  if (failed && !schedule_.ever() && !times().empty() && times().back() == moment.time)
+    writer_.continue_after({times().begin(), times().end() - 1});
+  if (failed || (ending == RunStatus::completed && schedule_.ever())) write(formulation, moment.time, failed);
 }
 
 void FrameObserver::save(StateWriter& writer) const { writer.put("frame_times", writer_.times()); }

@@ -60,7 +60,8 @@ class HistoryObserver : public Observer {
   std::int64_t last_step_ = -1;
 };
 
-/// frames/*.hdf at each due time and at the end; the last state of a failed run always.
+/// frames/*.hdf at each due time and at the end; the last state of a failed run always. Those of pictures are written
+/// by PictureObserver through write().
 class FrameObserver : public Observer {
  public:
   explicit FrameObserver(Results results);
@@ -69,9 +70,12 @@ class FrameObserver : public Observer {
   void save(StateWriter& writer) const override;
   void load(NamedState& reader, TimeState const& moment) override;
   std::vector<std::filesystem::path> files() const override { return writer_.files(); }
+  /// Writes a frame unless the last one is of this time [s].
+  void write(Formulation const& formulation, double time, bool failed = false);
+  /// Times of the frames written so far [s].
+  std::vector<double> const& times() const { return writer_.times(); }
 
  private:
-  void write(Formulation const& formulation, double time);
   Results results_;
   Schedule schedule_;
   FrameWriter writer_;

@@ -44,7 +44,7 @@ std::vector<std::string> accepted_changes(Checkpoint const& c, CaseSpec const& s
   if (!refused.empty()) {
     throw InputError(
         fmt::format("{}: is not the case that this run was started with (allowed to change: {}) - restore "
-                    "it, or run it anew with 'piola run'; what differs:{}",
+                    "it, or run it again with 'piola run'; what differs:{}",
                     file, keys_that_may_change(), refused));
   }
   if (spec.run.end < c.time) {

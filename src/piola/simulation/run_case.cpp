@@ -9,12 +9,12 @@
 #include "piola/observers/results_folder.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/output/folder_lock.hpp"
-#include "piola/pictures/picture_observer.hpp"
 #include "piola/setup/packed_bodies.hpp"
 #include "piola/simulation/driver_and_workers.hpp"
 #include "piola/simulation/dynamic_relaxation.hpp"
 #include "piola/simulation/guard_observer.hpp"
 #include "piola/simulation/observers.hpp"
+#include "piola/simulation/picture_observer.hpp"
 #include "piola/simulation/restore.hpp"
 #include "piola/simulation/run_summary.hpp"
 #include <algorithm>
@@ -39,7 +39,7 @@ struct Watch {
       : history(results),
         guards(results, mass, history),
         frames(results),
-        pictures(results),
+        pictures(results, frames),
         relaxation(results.spec.run, results.particles, mass),
         checkpoints(results, {&history, &guards, &frames, &pictures, &relaxation}, orders),
         progress(listener, results.spec.run.end, results.particles.size(), history),
@@ -60,7 +60,7 @@ struct Watch {
 namespace {
 
 std::string start_text(Simulation const& s) {
-  return fmt::format("formulation {}, {} particles, {} thread(s), machine {}, end {}", s.formulation_name,
+  return fmt::format("formulation {}, {} particles, {} thread(s), instruction set {}, end {}", s.formulation_name,
                      count_text(s.particles.size()), s.threads, s.spec.run.backend, quantity_text(s.spec.run.end, "s"));
 }
 
@@ -192,8 +192,7 @@ void blame_formula(Simulation const& s, TimeState const& moment, LoopResult& las
 /// Number of repartitions, as text.
 std::string recuts_text(RepartitionStatistics const& repartition_statistics) {
   auto const percent = [](double share) { return fmt::format("{:.0f} %", 100 * share); };
-  std::string text =
-      fmt::format("particles were shared out among the ranks anew {} times", repartition_statistics.imbalance.size());
+  std::string text = fmt::format("particles were repartitioned {} times", repartition_statistics.imbalance.size());
   for (std::size_t k = 0; k < repartition_statistics.imbalance.size() && k < 5; ++k)
     text +=
         (k == 0 ? "; before, the busiest was above the mean by " : ", ") + percent(repartition_statistics.imbalance[k]);

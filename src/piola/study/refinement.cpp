@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/study/refinement.hpp"
 #include "piola/base/text.hpp"
+#include "piola/formulations/renamed_outputs.hpp"
 #include "piola/input/document.hpp"
 #include "piola/output/atomic_file.hpp"
 #include <algorithm>
@@ -95,16 +96,16 @@ std::string quantity_setting(std::filesystem::path const& file, std::vector<std:
   Node list;
   list.kind = Node::Kind::array;
   if (Node const* const given = document.root.find("quantity"); given != nullptr) list.items = given->items;
-  for (std::string const& column : columns) {
-    std::size_t const colon = std::min(column.find(':'), column.size());
-    std::string const take = colon < column.size() ? column.substr(colon + 1) : "final_value";
-    std::string name = column.substr(0, colon) + "_" + take;
+  for (std::string const& asked : columns) {
+    std::size_t const colon = std::min(asked.find(':'), asked.size());
+    std::string const take = colon < asked.size() ? asked.substr(colon + 1) : "final_value";
+    std::string const column = current_output_name(asked.substr(0, colon));
+    std::string name = column + "_" + take;
     std::replace_if(
         name.begin(), name.end(), [](char c) { return c == '.' || c == '-'; }, '_');
     Node quantity;
-    quantity.entries = {{"name", {}, text_node_of(name)},
-                        {"column", {}, text_node_of(column.substr(0, colon))},
-                        {"take", {}, text_node_of(take)}};
+    quantity.entries = {
+        {"name", {}, text_node_of(name)}, {"column", {}, text_node_of(column)}, {"take", {}, text_node_of(take)}};
     list.items.push_back(std::move(quantity));
   }
   return "quantity=" + toml_value(list);

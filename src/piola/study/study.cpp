@@ -3,7 +3,7 @@
 #include "piola/base/text.hpp"
 #include "piola/input/document.hpp"
 #include "piola/output/atomic_file.hpp"
-#include "piola/pictures/results_reader.hpp"
+#include "piola/output/summary.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

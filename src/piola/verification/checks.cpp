@@ -3,6 +3,7 @@
 #include "piola/base/expression.hpp"
 #include "piola/base/text.hpp"
 #include "piola/base/units.hpp"
+#include "piola/formulations/renamed_outputs.hpp"
 #include "piola/input/document.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/verification/verify.hpp"
@@ -165,7 +166,7 @@ void read_field(Entry& entry, Check& check) {
   if (!used) return;
   if (Node const* const node = entry.find("quantity", false))
     entry.complain(*node, "'quantity' is not for as = \"field_error\", which compares a 'field' - remove it");
-  check.field = entry.text("field", true);
+  check.field = current_output_name(entry.text("field", true));
   if (Node const* const node = entry.find("time", true)) {
     Quantity const time = read_quantity(node->is_number() ? exact_text(node->number()) : node->text, "s");
     check.time = time.value;

@@ -149,7 +149,7 @@ std::string evidence_text(std::vector<CaseVerification> const& cases) {
   }
   text = "Evidence: " + (text.empty() ? "none" : text);
   if (counts[code] > 0)
-    text += fmt::format("; besides {} {} of the code", counts[code], counts[code] == 1 ? "check" : "checks");
+    text += fmt::format("; also {} {} of the code", counts[code], counts[code] == 1 ? "check" : "checks");
   return text + ".";
 }
 

@@ -180,7 +180,7 @@ TEST_P(AdaptleBalance, LinearVelocitiesHaveExactGradientsWithTheCorrection) {
 
 TEST_P(AdaptleBalance, ThePrintedViscosityKeepsMomentumAndEnergy) {
   Assembly a = cloud_assembly(GetParam());
-  choose(a, "viscosity_form", "printed");
+  choose(a, "viscosity_form", "published");
   Cloud cloud(a);
   make_random(cloud, GetParam());
   cloud.evaluate();
@@ -195,7 +195,7 @@ TEST(AdaptleBalances, CentralViscosityHasNoTorque) {
       Kind const k{dimension, Mixture::lagrangian, "material", backend};
       Assembly a = cloud_assembly(k);
       choose(a, "hourglass", 0.0);
-      for (std::string const form : {"central", "printed"}) {
+      for (std::string const form : {"central", "published"}) {
         choose(a, "viscosity_form", form);
         Cloud cloud(a);
         make_random(cloud, k);
@@ -215,7 +215,7 @@ TEST(AdaptleBalances, BothFormsOfTheViscosityAgreeWithoutDeformation) {
     Assembly a = cloud_assembly(k);
     choose(a, "hourglass", 0.2);
     std::map<std::string, std::array<Values, 3>> of;
-    for (std::string const form : {"central", "printed"}) {
+    for (std::string const form : {"central", "published"}) {
       choose(a, "viscosity_form", form);
       Cloud cloud(a);
       Random random(11);
@@ -236,7 +236,7 @@ TEST(AdaptleBalances, BothFormsOfTheViscosityAgreeWithoutDeformation) {
       of[form][2] = {heat};  // each particle's share of the damping differs, the sum does not
     }
     for (std::size_t n = 0; n < 3; ++n)
-      EXPECT_LT(largest_difference(of["central"][n], of["printed"][n]), 1e-12 * largest(of["central"][n]));
+      EXPECT_LT(largest_difference(of["central"][n], of["published"][n]), 1e-12 * largest(of["central"][n]));
   }
 }
 
@@ -254,7 +254,7 @@ TEST(AdaptleBalances, ThePrintedInterfaceKeepsNeitherMomentumNorEnergy) {
   for (int const dimension : {2, 3}) {
     Kind const k{dimension, Mixture::halves, "mixed", "auto"};
     Assembly a = cloud_assembly(k);
-    choose(a, "interface", "printed");
+    choose(a, "interface", "published");
     Cloud cloud(a);
     make_random(cloud, k);
     cloud.evaluate();
@@ -268,7 +268,7 @@ TEST(AdaptleBalances, ThePrintedInterfaceKeepsThemWithOneDescription) {
   for (Mixture const m : {Mixture::eulerian, Mixture::lagrangian}) {
     Kind const k{2, m, "mixed", "auto"};
     Assembly a = cloud_assembly(k);
-    choose(a, "interface", "printed");
+    choose(a, "interface", "published");
     Cloud cloud(a);
     make_random(cloud, k);
     cloud.evaluate();
@@ -280,7 +280,7 @@ TEST(AdaptleBalances, ThePrintedInterfaceKeepsThemWithOneDescription) {
 TEST(AdaptleBalances, ThePrintedInterfaceHasExactGradientsToo) {
   Kind const k{2, Mixture::halves, "mixed", "auto"};
   Assembly a = cloud_assembly(k);
-  choose(a, "interface", "printed");
+  choose(a, "interface", "published");
   Cloud cloud(a);
   make_random(cloud, k);
   for (Index i = 0; i < cloud.size(); ++i) {

@@ -83,7 +83,8 @@ inline Assembly adaptle_assembly(ParticleSet set, MaterialParameters const& m = 
 
 inline void choose_formula(Assembly& a, std::string const& key, std::string const& text) {
   Names names;
-  for (auto const v : adaptle::conversion_variables()) names.variables.emplace_back(v);
+  for (FormulaInfo const& formula : adaptle::info().formulas)
+    for (auto const v : formula.variables) names.variables.emplace_back(v);
   for (auto& f : a.formulations) f.formulas.insert_or_assign(key, Expression(text, names));
 }
 

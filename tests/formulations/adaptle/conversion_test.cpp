@@ -101,7 +101,7 @@ TEST(AdaptleConversion, GuardsVolumesAndTethers) {
     Assembly b = adaptle_assembly(unit_box(2, 11));
     double const h = 1.3 * 0.1;
     choose(b, "smoothing_length", 1.3);
-    choose(b, "tether", tether);
+    choose(b, "conversion_separation", tether);
     Cloud torn(b);
     Index const middle = 60;
     torn.state[middle].phi = 1;

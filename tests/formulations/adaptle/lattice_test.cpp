@@ -80,9 +80,9 @@ std::vector<LatticeKind> lattice_kinds() {
   std::vector<LatticeKind> r;
   for (int const dimension : {2, 3})
     for (char const* description : {"total_lagrangian", "patch"}) {
-      for (char const* form : {"central", "printed"})
+      for (char const* form : {"central", "published"})
         for (char const* correction : {"material", "none"}) r.push_back({dimension, correction, form, description});
-      r.push_back({dimension, "mixed", "printed", description});
+      r.push_back({dimension, "mixed", "published", description});
     }
   return r;
 }

@@ -125,7 +125,7 @@ TEST(AdaptleObserve, AnInitialPressureActsForOneStepOrAlways) {
   for (std::string const lasts : {"one_step", "always"}) {
     Assembly a = adaptle_assembly(unit_box(2, 9));
     choose(a, "description", "eulerian");
-    choose(a, "initial_pressure_lasts", lasts);
+    choose(a, "initial_pressure_duration", lasts);
     choose_formula(a, "initial_pressure", "1e7");
     Cloud cloud(a);
     cloud.evaluate();

@@ -40,8 +40,8 @@ TEST(AdaptleViscosity, SwitchIsOneInCompressionAndSmallElsewhere) {
   EXPECT_EQ(compression_factor(spread, c, h, 0.05), 0.05);
   EXPECT_EQ(compression_factor(Mat<3>{}, c, h, 0.05), 0.05);
   // Uniaxial compression beside as fast a shear: D' = diag(-2, 1, 1)/3 with 1/2 off the diagonal, |rot v| = 1.
-  hash_mix(0, 0) = -rate;
-  hash_mix(0, 1) = rate;
+  mixed(0, 0) = -rate;
+  mixed(0, 1) = rate;
   EXPECT_NEAR(compression_factor(mixed, c, h, 0.05), 1 / (std::sqrt(1.5 * (6.0 / 9 + 0.5)) + 1 + small), 1e-14);
   EXPECT_NEAR(balsara_factor(mixed, c, h), 1 / (1 + 1 + 0.1 * small), 1e-14);
 }

@@ -133,7 +133,7 @@ TEST(CoupledFormulations, AddsUpWhatItsPartsHave) {
     return std::count_if(d.more.begin(), d.more.end(), [&](auto const& column) { return column.first == name; });
   };
   EXPECT_EQ(named("plastic_work"), 1) << "of nodal and adaptle";
-  EXPECT_EQ(named("least_jacobian"), 1) << "of nodal";
+  EXPECT_EQ(named("cell_jacobian_min"), 1) << "of nodal";
 }
 
 TEST(CoupledFormulations, ShowsZeroWhereAFormulationHasNoSuchField) {

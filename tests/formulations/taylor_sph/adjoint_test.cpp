@@ -49,7 +49,7 @@ TEST_P(AdjointExchange, BalancesEnergyInEveryStepToRoundOff) {
     // The balance is that of a fixed configuration without patterns of boxes.
     if (GetParam().cells == "lattice_cells") continue;
     Assembly a = assembly(GetParam(), 0.1);
-    choose(a, "cell_memory", memory);
+    choose(a, "stress_retention", memory);
     auto const f = make_formulation(a);
     double const dt = f->stable_time_step();
     f->step(0, dt);
@@ -148,7 +148,7 @@ TEST(AdjointForces, OfAUniformStressVanishInsideOnAnySet) {
     Setting const setting{D, 0.2, "fixed", "delaunay"};
     Assembly a = assembly(setting, 0);
     a.initial_velocity.clear();
-    choose(a, "cell_memory", 0.0);
+    choose(a, "stress_retention", 0.0);
     auto const f = make_formulation(a);
     give_stress(*f, a, [&](Point const&) { return std::array<double, 6>{1, 2, 0.5, 0.3, 0.2, 0.1}; });
     double const dt = f->stable_time_step();

@@ -12,7 +12,7 @@ using Numbers = std::map<std::string, double, std::less<>>;
 /// Of estimates, unless the words say otherwise.
 Options options(int dimension, Words words = {}, Numbers numbers = {}, double cfl = std::nan(""),
                 bool whole_lattice = true) {
-  words.emplace("exchange", "estimates");
+  words.emplace("exchange", "kernel_sums");
   return read_options({"taylor_sph", std::move(numbers), std::move(words)}, dimension, cfl, whole_lattice);
 }
 
@@ -38,8 +38,8 @@ TEST(TaylorOptions, AreAMovingBodyOfSimplicesWithTheAdjointExchangeByDefault) {
     Options const fixed = read_options({"taylor_sph", {}, {{"configuration", "fixed"}}}, D, std::nan(""), true);
     EXPECT_FALSE(fixed.adjoint) << "exact waves at Courant number 1 need the estimates";
   }
-  Options const boxes = read_options({"taylor_sph", {{"cell_memory", 0.5}}, {{"virtual_particles", "lattice_cells"}}},
-                                     2, std::nan(""), true);
+  Options const boxes = read_options(
+      {"taylor_sph", {{"stress_retention", 0.5}}, {{"virtual_particles", "lattice_cells"}}}, 2, std::nan(""), true);
   EXPECT_EQ(boxes.hourglass_stiffness, 0.05);
   EXPECT_EQ(boxes.memory, 0.5);
 }
@@ -83,7 +83,7 @@ TEST(TaylorOptions, OfAFixedBodyTakeTheLargestStepThatIsExact) {
 }
 
 TEST(TaylorOptions, FollowTheWordsThatAreGiven) {
-  EXPECT_EQ(options(2, {{"gradient", "printed"}}).form, GradientForm::as_published);
+  EXPECT_EQ(options(2, {{"gradient", "published"}}).form, GradientForm::as_published);
   EXPECT_EQ(options(2, {{"gradient", "linear_exact"}}).form, GradientForm::linear_exact);
   EXPECT_EQ(options(2, {{"kernel", "wendland_c2"}}).kernel, find_kernel("wendland_c2"));
   EXPECT_EQ(options(2, {{"kernel", "cubic_spline"}}).kernel, find_kernel("cubic_spline"));
@@ -165,7 +165,7 @@ TEST(TaylorSolver, RefusesAMachineThatItDoesNotHaveAndNamesThoseItHas) {
   using namespace testing;
   Assembly a = assemble_taylor(unit_box(2, 5));
   a.backend = "abacus";
-  std::string expected = "machine 'abacus' is unknown or not usable on this processor (usable: auto";
+  std::string expected = "instruction set 'abacus' is unknown or not usable on this processor (usable: auto";
   for (auto names = backend_names(); *names != nullptr; ++names) expected += std::string(", ") + *names;
   EXPECT_EQ(refusal(a), expected + ")");
 }

@@ -18,7 +18,7 @@ inline MaterialParameters soft(double poissons_ratio = 0.3) {
 /// exchange choose it.
 inline Assembly assemble_taylor(ParticleSet set, MaterialParameters const& m = soft()) {
   Assembly a = assemble(std::move(set), m);
-  a.formulations.assign(a.particles.bodies.size(), FormulationSpec{"taylor_sph", {}, {{"exchange", "estimates"}}});
+  a.formulations.assign(a.particles.bodies.size(), FormulationSpec{"taylor_sph", {}, {{"exchange", "kernel_sums"}}});
   return a;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loops of AdapTLE for one machine; compiled once per instruction set (PIOLA_MACHINE).
+// The loops of AdapTLE for one machine; compiled once per instruction set (PIOLA_BACKEND).
 #include "piola/formulations/adaptle/step.hpp"
 
 namespace piola::adaptle::inline PIOLA_BACKEND {
@@ -47,4 +47,4 @@ extern Backend const backend;
 Backend const backend{PIOLA_BACKEND_NAME, lane_count, &predict, &deform, &half_state,
                       &correct,           &sweep,     &finish,  &search};
 
-}  // namespace piola::adaptle::inline PIOLA_MACHINE
+}  // namespace piola::adaptle::inline PIOLA_BACKEND

@@ -54,4 +54,4 @@ void launch(int dimension, Range r, void const* pass) {
   if (dimension == 3) launch_all<3>(r, pass);
 }
 
-}  // namespace piola::adaptle::inline PIOLA_MACHINE
+}  // namespace piola::adaptle::inline PIOLA_BACKEND

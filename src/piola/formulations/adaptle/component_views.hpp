@@ -104,4 +104,4 @@ struct OwnComponents {
   }
 };
 
-}  // namespace piola::adaptle::inline PIOLA_MACHINE
+}  // namespace piola::adaptle::inline PIOLA_BACKEND

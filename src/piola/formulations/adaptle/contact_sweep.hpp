@@ -212,4 +212,4 @@ struct RigidSweep {
   PIOLA_FN void raise(Index i, int which, double value) const { sums.at(i, which) = maximum(sums.at(i, which), value); }
 };
 
-}  // namespace piola::adaptle::inline PIOLA_MACHINE
+}  // namespace piola::adaptle::inline PIOLA_BACKEND

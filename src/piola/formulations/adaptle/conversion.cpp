@@ -121,9 +121,7 @@ void Particles::convert(double dt) {
 
 /// Marks the particle and all that have it as a reference neighbour, because their deformation gradient now depends on
 /// the positions of an Eulerian particle.
-void Particles::lose_surface(Index slot) {
-  lost_.lose(set_, order_, slot, 2 * body_[at(body_of_[at(slot)])].reference_h);
-}
+void Particles::lose_surface(Index slot) { lost_.lose(set_, slot, 2 * body_[at(body_of_[at(slot)])].reference_h); }
 
 /// x, v, S, energy and history stay. rho follows from J, which belongs to half time, carried on to the end of the step.
 void Particles::make_eulerian(Index i, double dt, bool by_guard, ConversionSums& sums) {

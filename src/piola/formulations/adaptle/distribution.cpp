@@ -13,7 +13,7 @@ namespace piola::adaptle {
 /// Builds the data of the local particles.
 void Particles::take(std::vector<Partition> cuts) {
   std::fill(rigid_action_.begin(), rigid_action_.end(), 0);  // a part may have fewer blocks than the one before
-  owned_ = ParticlePartition(cuts, order_);
+  owned_ = ParticlePartition(cuts);
   for (std::size_t b = 0; b < own_.size(); ++b) own_[b] = cuts[b].own();
   set_reference();
   set_factors();
@@ -22,13 +22,11 @@ void Particles::take(std::vector<Partition> cuts) {
   lines_.clear();
   for (std::size_t b = 0; b < own_.size(); ++b) {
     Index const first = body_[b].first;
-    std::int64_t const* const ids = order_.ids();
     lines_.push_back(std::make_unique<LatticeLineHalo>(
-        set_, set_.bodies[b],
-        LatticeLineHalo::Slots{ids != nullptr ? ids + first : nullptr, first, body_[b].last - first},
+        set_, set_.bodies[b], LatticeLineHalo::Slots{nullptr, first, body_[b].last - first},
         Range{own_[b].first - first, own_[b].last - first}, cuts[b].from_zero()));
   }
-  exchanges_ = std::make_unique<StepHaloExchanges>(system_, material_, std::move(cuts), order_);
+  exchanges_ = std::make_unique<StepHaloExchanges>(system_, material_, std::move(cuts));
 }
 
 /// CPU time relative to a total-Lagrangian particle, from the cubes of `piola bench adaptle`. Deleted particles only
@@ -115,14 +113,14 @@ void Particles::migrate(std::vector<Partition> const& from, std::vector<Partitio
 
 /// Replicates the values of the failed particle for its error message.
 void Particles::broadcast_failure() {
-  Index const slot = failure_.index != FailureSlot::none ? failure_.index : order_.slot(0);
+  Index const slot = failure_.index != FailureSlot::none ? failure_.index : 0;
   Range const own = own_[at(body_of_[at(slot)])];
   for (Field* field : {&fields_.x, &fields_.v, &fields_.rho, &fields_.damage, &fields_.plastic_strain})
     allgather_selected_slots(field->ref(), own, std::array{slot}, field->components());
 }
 
 double Particles::contact_mass(std::int64_t id) const {
-  Index const slot = order_.slot(id);
+  auto const slot = static_cast<Index>(id);
   bool const there = fields_.active.at(slot) > 0;
   return there ? body_[at(body_of_[at(slot)])].rho0 * set_.volume[static_cast<std::size_t>(id)] : 0;
 }
@@ -131,7 +129,7 @@ void Particles::read_motion(std::span<std::int64_t const> ids, std::span<std::ar
                             std::span<std::array<double, 3>> v) const {
   std::vector<double> motion(6 * ids.size(), 0);
   for (std::size_t k = 0; k < ids.size(); ++k) {
-    Index const slot = order_.slot(ids[k]);
+    auto const slot = static_cast<Index>(ids[k]);
     if (!is_local(slot)) continue;
     std::ranges::copy(point_at(fields_.x.ref(), slot, 3), &motion[6 * k]);
     std::ranges::copy(point_at(fields_.v.ref(), slot, 3), &motion[6 * k + 3]);

@@ -202,4 +202,4 @@ struct Balance {
   }
 };
 
-}  // namespace piola::adaptle::inline PIOLA_MACHINE
+}  // namespace piola::adaptle::inline PIOLA_BACKEND

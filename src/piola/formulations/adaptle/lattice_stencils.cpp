@@ -49,13 +49,12 @@ double lattice_square(Body const& body, std::array<int, 3> const& from, std::arr
   return square;
 }
 
-LatticeStencils::LatticeStencils(ParticleSet const& set, ParticleOrder const& order, BodyInput const& body,
-                                 std::span<Offset const> begin, std::span<Index const> neighbour, int lanes,
-                                 bool rounded, int components)
+LatticeStencils::LatticeStencils(ParticleSet const& set, BodyInput const& body, std::span<Offset const> begin,
+                                 std::span<Index const> neighbour, int lanes, bool rounded, int components)
     : first_(static_cast<Index>(body.geometry.first)) {
   if (!body.geometry.regular || body.geometry.off_lattice) return;
   find_offsets(body.geometry, set.dimension, body.h, rounded);
-  Fill fill = find_patterns(set, order, body, begin, neighbour, lanes);
+  Fill fill = find_patterns(set, body, begin, neighbour, lanes);
   comm::allreduce(fill, [](void const* other, void* mine) {
     auto const& from = *static_cast<Fill const*>(other);
     auto& to = *static_cast<Fill*>(mine);
@@ -97,35 +96,29 @@ std::int32_t LatticeStencils::offset_between(std::array<int, 3> const& from, std
   return number_[at(cell)];
 }
 
-/// Whether lists are faster must not depend on where tiles stand, nor on ranks: lanes are counted in the order of the
-/// body.
-LatticeStencils::Fill LatticeStencils::find_patterns(ParticleSet const& set, ParticleOrder const& order,
-                                                     BodyInput const& body, std::span<Offset const> begin,
-                                                     std::span<Index const> neighbour, int lanes) {
+LatticeStencils::Fill LatticeStencils::find_patterns(ParticleSet const& set, BodyInput const& body,
+                                                     std::span<Offset const> begin, std::span<Index const> neighbour,
+                                                     int lanes) {
   auto const& place = set.lattice_index.seen();
   auto const W = static_cast<std::size_t>(lanes);
-  std::vector<Index> distance(offsets_.size() * W), between_ids(distance.size());
+  std::vector<Index> distance(offsets_.size() * W);
   std::map<GroupShape, std::int32_t> known;
   pattern_of_.assign(at((static_cast<Index>(body.geometry.last) - first_ + lanes - 1) / lanes), 0);
   Fill fill;
   for (Index group = body.own.first; group < body.own.last; group += lanes) {
     std::fill(distance.begin(), distance.end(), absent);
-    std::fill(between_ids.begin(), between_ids.end(), absent);
     for (Index i = group; i < std::min(group + lanes, body.own.last); ++i)
       for (Offset k = begin[at(i)]; k < begin[at(i) + 1]; ++k) {
         Index const j = neighbour[at(k)];
         if (j >= static_cast<Index>(set.size())) continue;
-        std::size_t const from = order.id(i), to = order.id(j);
-        std::int32_t const o = offset_between(place[from], place[to]);
+        std::int32_t const o = offset_between(place[at(i)], place[at(j)]);
         if (o < 0) return {0, 0, false};  // not a lattice after all
-        std::size_t const here = at(o) * W + at(i - group);
-        distance[here] = j - i;
-        between_ids[here] = static_cast<Index>(to) - static_cast<Index>(from);
+        distance[at(o) * W + at(i - group)] = j - i;
         farthest_ = std::max(farthest_, std::abs(j - i));
         ++fill.present;
       }
     GroupShape shape = shape_of_group(distance, lanes);
-    fill.all += std::ssize(order.dealt() ? shape_of_group(between_ids, lanes) : shape) / 3 * lanes;
+    fill.all += std::ssize(shape) / 3 * lanes;
     auto const [found, is_new] = known.try_emplace(std::move(shape), static_cast<std::int32_t>(known.size()));
     pattern_of_[at((group - first_) / lanes)] = found->second;
     if (is_new) add_pattern(found->first, lanes);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/exec/memory.hpp"
-#include "piola/formulations/adaptle/particle_order.hpp"
 #include "piola/formulations/adaptle/state.hpp"
+#include "piola/particles/particle_set.hpp"
 #include <span>
 #include <vector>
 
@@ -20,9 +20,8 @@ class LatticeStencils {
   };
   /// begin, neighbour: lists of the local particles. Bodies that are no lattice, or whose groups of lanes have too few
   /// common neighbours, keep their lists: is_lattice() is false. components: of a record. Collective.
-  LatticeStencils(ParticleSet const& set, ParticleOrder const& order, BodyInput const& body,
-                  std::span<Offset const> begin, std::span<Index const> neighbour, int lanes, bool rounded,
-                  int components);
+  LatticeStencils(ParticleSet const& set, BodyInput const& body, std::span<Offset const> begin,
+                  std::span<Index const> neighbour, int lanes, bool rounded, int components);
 
   bool is_lattice() const { return has_rows_; }
   MaterialRows view();
@@ -36,8 +35,8 @@ class LatticeStencils {
     std::int64_t present = 0, all = 0;
     bool lattice = true;  ///< all neighbours are at common offsets
   };
-  Fill find_patterns(ParticleSet const& set, ParticleOrder const& order, BodyInput const& body,
-                     std::span<Offset const> begin, std::span<Index const> neighbour, int lanes);
+  Fill find_patterns(ParticleSet const& set, BodyInput const& body, std::span<Offset const> begin,
+                     std::span<Index const> neighbour, int lanes);
   void add_pattern(std::span<std::int32_t const> entries, int lanes);
   void allocate(Body const& body, int components);
 

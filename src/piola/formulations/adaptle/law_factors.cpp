@@ -11,10 +11,8 @@ std::size_t place(Index i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 void PointFactors::build(std::vector<BodyConstants> const& bodies, std::vector<BodyOptions> const& options,
-                         std::vector<Range> const& own, ParticleSet const& set, ParticleOrder const& order,
-                         double time) {
+                         std::vector<Range> const& own, ParticleSet const& set, double time) {
   *this = {};
-  order_ = &order;
   set_ = &set;
   own_ = own;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
@@ -56,7 +54,7 @@ void PointFactors::add_scatter(BodyConstants const& body, Range own) {
     if (!(law.scatter.modulus < unbounded)) return;
     with(toughness_, 1);
     for (Index i = own.first; i < own.last; ++i)
-      toughness_[place(i)] = law.scatter.factor(order_->id(i), set_->volume[order_->id(i)]);
+      toughness_[place(i)] = law.scatter.factor(place(i), set_->volume[place(i)]);
   });
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 #include "piola/exec/lazy_zero_array.hpp"
 #include "piola/formulations/adaptle/options.hpp"
-#include "piola/formulations/adaptle/particle_order.hpp"
 #include <array>
 #include <span>
 #include <vector>
@@ -15,7 +14,7 @@ class PointFactors {
  public:
   /// For a time [s]: the start, or that of a resumed run. own: local slots of each body; others have none.
   void build(std::vector<BodyConstants> const& bodies, std::vector<BodyOptions> const& options,
-             std::vector<Range> const& own, ParticleSet const& set, ParticleOrder const& order, double time);
+             std::vector<Range> const& own, ParticleSet const& set, double time);
   /// Updates time-dependent factors to a time [s].
   void go_to(double time);
   /// Removes factors that act for one step only.
@@ -25,7 +24,7 @@ class PointFactors {
 
  private:
   void add_initial_pressure(Range own, BodyOptions const& options);
-  std::array<double, 3> const& X(Index slot) const { return set_->X[order_->id(slot)]; }
+  std::array<double, 3> const& X(Index slot) const { return set_->X[static_cast<std::size_t>(slot)]; }
   void add_explosive(BodyConstants const& body, Range own, BodyOptions const& options);
   void add_scatter(BodyConstants const& body, Range own);
 
@@ -38,7 +37,6 @@ class PointFactors {
   /// The values of a factor per slot, with `otherwise` for bodies that do not have it.
   LazyZeroArray<double>& with(LazyZeroArray<double>& values, double otherwise) const;
 
-  ParticleOrder const* order_ = nullptr;
   ParticleSet const* set_ = nullptr;
   std::vector<Range> own_;
   LazyZeroArray<double> initial_pressure_, burnt_, toughness_;  ///< per slot; empty: none

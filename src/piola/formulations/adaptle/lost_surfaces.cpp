@@ -4,8 +4,8 @@
 
 namespace piola::adaptle {
 
-void LostSurfaces::lose(ParticleSet const& set, ParticleOrder const& order, Index slot, double reach) {
-  std::size_t const id = order.id(slot);
+void LostSurfaces::lose(ParticleSet const& set, Index slot, double reach) {
+  std::size_t const id = at(slot);
   int const b = set.body[id];
   Body const& body = set.bodies[at(b)];
   std::unique_ptr<CellGrid>& grid = places_[b];
@@ -19,7 +19,7 @@ void LostSurfaces::lose(ParticleSet const& set, ParticleOrder const& order, Inde
     std::int64_t const other = body.first + k;
     double square = 0;
     for (std::size_t c = 0; c < 3; ++c) square += (set.X[at(other)][c] - X[c]) * (set.X[at(other)][c] - X[c]);
-    std::uint8_t& lost = lost_[at(order.slot(other))];
+    std::uint8_t& lost = lost_[at(other)];
     if (lost != 0 || !(square <= reach * reach)) return;
     lost = 1;
     count_ += 1;

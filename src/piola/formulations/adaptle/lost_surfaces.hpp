@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/adaptle/particle_order.hpp"
 #include "piola/neighbours/cell_grid.hpp"
+#include "piola/particles/particle_set.hpp"
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -20,7 +20,7 @@ class LostSurfaces {
   /// By slot: 1 if lost; empty if no bodies have surface contact first.
   std::vector<std::uint8_t> const& by_slot() const { return lost_; }
   /// Marks a particle that has become Eulerian and all of its body within `reach` [m] in the reference configuration.
-  void lose(ParticleSet const& set, ParticleOrder const& order, Index slot, double reach);
+  void lose(ParticleSet const& set, Index slot, double reach);
 
  private:
   std::vector<std::uint8_t> lost_;

@@ -51,7 +51,7 @@ void observe_each(Particles const& particles, F const& f) {
   LazyZeroArray<int> const spatial = particles.spatial().neighbours_by_slot(s);
   auto const put = [&](Index i, double pressure) {
     ParticleOutput p;
-    p.id = static_cast<double>(particles.order().id(i));
+    p.id = static_cast<double>(i);
     p.body = s.body_of[i];
     p.kernel_type = of.phi.at(i);
     p.neighbours = p.kernel_type > 0 ? spatial[at(i)] : particles.reference_neighbours(i);
@@ -99,7 +99,7 @@ void observe_body(Particles const& particles, ParticleSet const& set, int number
     if (lines != nullptr)
       lines->pressure(i - s.body[number].first) = pressure;
     else
-      pressures[particles.order().id(i) - static_cast<std::size_t>(body.first)] = pressure;
+      pressures[at(i - body.first)] = pressure;
     o.add_motion(point_at(s.field.x, i, 3), point_at(s.field.v, i, 3), mass);
     o.add_state(rho0 / f.rho.at(i), pressure, f.volume.at(i));
     internal.add(&energy);

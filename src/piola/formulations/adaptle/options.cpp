@@ -12,11 +12,11 @@ namespace piola::adaptle {
 namespace {
 
 constexpr std::array<std::string_view, 4> description_words{"adaptive", "total_lagrangian", "eulerian", "patch"};
-constexpr std::array<std::string_view, 2> interface_words{"owner", "printed"};
+constexpr std::array<std::string_view, 2> interface_words{"owner", "published"};
 constexpr std::array<std::string_view, 3> correction_words{"material", "none", "mixed"};
 constexpr std::array<std::string_view, 5> viscosity_words{"compression", "monaghan", "balsara", "morris_monaghan",
                                                           "riemann"};
-constexpr std::array<std::string_view, 3> form_words{"auto", "printed", "central"};
+constexpr std::array<std::string_view, 3> form_words{"auto", "published", "central"};
 constexpr std::array<std::string_view, 3> mixed_words{"both", "eulerian_only", "none"};
 constexpr std::array<std::string_view, 2> speed_words{"bulk", "p_wave"};
 constexpr std::array<std::string_view, 2> assumption_words{"plane_strain", "plane_stress"};
@@ -30,7 +30,8 @@ constexpr std::array choices{
            description_words},
     Choice{"interface",
            "forces between total-Lagrangian and Eulerian particles; owner: each through its own gradients with the "
-           "reaction on the other, conserves momentum and energy; printed: as published, conserves neither",
+           "reaction on the other, conserves momentum and energy; published: as in the paper, conserves "
+           "neither",
            interface_words},
     Choice{"correction",
            "of kernel and gradient, eqs. 3 to 5, by which linear fields are exact; material: of total-Lagrangian sums; "
@@ -44,18 +45,19 @@ constexpr std::array choices{
            viscosity_words},
     Choice{"viscosity_speed", "speed of sound in the viscosity", speed_words},
     Choice{"viscosity_form",
-           "force of viscosity between total-Lagrangian particles; auto: central where no body yields, else printed; "
-           "printed: set (2), which correction = \"mixed\" and interface = \"printed\" always have; central: along the "
-           "line between them, keeps angular momentum, twice as fast, can have a hourglass_stiffness",
+           "force of viscosity between total-Lagrangian particles; auto: central where no body yields, else published; "
+           "published: set (2), which correction = \"mixed\" and interface = \"published\" always have; central: along "
+           "the line between them, keeps angular momentum, twice as fast, can have a hourglass_stiffness",
            form_words},
     Choice{"artificial_stress_interface", "on which side of a mixed pair artificial stress acts", mixed_words},
     Choice{"assumption", "about the direction that a two-dimensional body does not have", assumption_words},
-    Choice{"failed",
-           "what failed particles bear; release: they lose shear and tension while a shear wave crosses their support; "
-           "keep: all their stress, as published; delete (total_lagrangian only): nothing, and they leave the sums of "
-           "their neighbours",
-           failed_words},
-    Choice{"initial_pressure_lasts", "how long initial_pressure acts: a residual stress, or an impulse",
+    Choice{
+        "failed",
+        "what failed particles carry; release: they lose shear and tension while a shear wave crosses their support; "
+        "keep: all their stress, as published; delete (total_lagrangian only): nothing, and they leave the sums of "
+        "their neighbours",
+        failed_words},
+    Choice{"initial_pressure_duration", "how long initial_pressure acts: a residual stress, or an impulse",
            lasting_words}};
 
 constexpr std::array parameters{
@@ -91,7 +93,7 @@ constexpr std::array parameters{
               0.3},
     Parameter{"jacobian_max", "1", "largest volume ratio of a total-Lagrangian particle",
               Interval{1, unbounded, true, true}, 3},
-    Parameter{"tether", "1",
+    Parameter{"conversion_separation", "1",
               "a particle converts when an Eulerian reference neighbour has moved away by this many material smoothing "
               "lengths from where its deformation gradient would put it; 0: never",
               not_negative, 1},
@@ -174,7 +176,7 @@ BodyOptions read_body(FormulationSpec const& spec, int dimension, bool springs, 
   o.convert_damage = number(spec, "convert_damage");
   o.jacobian_min = number(spec, "jacobian_min");
   o.jacobian_max = number(spec, "jacobian_max");
-  o.tether = number(spec, "tether");
+  o.tether = number(spec, "conversion_separation");
   o.conversion_radius = number(spec, "conversion_radius");
   o.blend = number(spec, "blend");
   o.deletes = word(spec, "failed") == "delete";
@@ -188,14 +190,14 @@ BodyOptions read_body(FormulationSpec const& spec, int dimension, bool springs, 
   o.convert_when = formula("convert_when");
   o.initial_pressure = formula("initial_pressure");
   o.ignition = formula("ignition");
-  o.initial_pressure_lasts = word(spec, "initial_pressure_lasts") == "always";
+  o.initial_pressure_lasts = word(spec, "initial_pressure_duration") == "always";
   return o;
 }
 
 /// Whether material sums are to be as published; `yielding`: some body can flow.
 bool published_form(FormulationSpec const& spec, bool yielding) {
   std::string_view const form = word(spec, "viscosity_form");
-  return word(spec, "interface") == "printed" || word(spec, "correction") == "mixed" || form == "printed" ||
+  return word(spec, "interface") == "published" || word(spec, "correction") == "mixed" || form == "published" ||
          (form == "auto" && yielding);
 }
 
@@ -273,8 +275,6 @@ void check_body(BodyOptions const& o, Settings const& s, std::string const& name
 
 }  // namespace
 
-std::span<std::string_view const> conversion_variables() { return variables; }
-
 FormulationInfo info() {
   FormulationInfo info{"adaptle",
                        "total-Lagrangian SPH whose particles turn Eulerian where the material is torn; plasticity, "
@@ -286,7 +286,7 @@ FormulationInfo info() {
   info.mirrors = false;
   info.contact = true;
   info.can_be_coupled = true;
-  info.on_ranks = info.observes_locally = info.has_spatial_halo = true;
+  info.observes_locally = true;
   info.formulas = formulas;
   return info;
 }

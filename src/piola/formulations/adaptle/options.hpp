@@ -39,7 +39,4 @@ FormulationInfo info();
 /// Throws InputError with all errors.
 Options read_options(Assembly const& assembly);
 
-/// Variables of the formula convert_when, in the order of their values.
-std::span<std::string_view const> conversion_variables();
-
 }  // namespace piola::adaptle

@@ -3,7 +3,6 @@
 #include "piola/domain/communicator.hpp"
 #include "piola/domain/partition.hpp"
 #include "piola/exec/host_loops.hpp"
-#include "piola/formulations/adaptle/particle_order.hpp"
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -16,8 +15,8 @@ namespace piola::adaptle {
 class ParticlePartition {
  public:
   ParticlePartition() = default;
-  /// cuts: of each body; keeps a reference to `order`, which must outlive this.
-  ParticlePartition(std::vector<Partition> cuts, ParticleOrder const& order) : cuts_(std::move(cuts)), order_(&order) {}
+  /// cuts: of each body.
+  explicit ParticlePartition(std::vector<Partition> cuts) : cuts_(std::move(cuts)) {}
 
   std::vector<Partition> const& cuts() const { return cuts_; }
   /// Calls f(slot, index among the particles of the rank).
@@ -38,7 +37,7 @@ class ParticlePartition {
   }
   std::vector<std::int64_t> ids() const {
     std::vector<std::int64_t> ids(count(comm::rank()));
-    each(comm::rank(), [&](Index i, std::size_t k) { ids[k] = static_cast<std::int64_t>(order_->id(i)); });
+    each(comm::rank(), [&](Index i, std::size_t k) { ids[k] = i; });
     return ids;
   }
 
@@ -49,14 +48,13 @@ class ParticlePartition {
       if (rank > 0) comm::send_to(rank, 0, mine);
       if (comm::rank() != 0) continue;
       each(rank, [&](Index i, std::size_t k) {
-        for (std::size_t c = 0; c < width; ++c) all[order_->id(i) * width + c] = mine[k * width + c];
+        for (std::size_t c = 0; c < width; ++c) all[static_cast<std::size_t>(i) * width + c] = mine[k * width + c];
       });
     }
   }
 
  private:
   std::vector<Partition> cuts_;
-  ParticleOrder const* order_ = nullptr;
 };
 
 }  // namespace piola::adaptle

@@ -69,7 +69,6 @@ void EnergyTotals::restore(std::span<double const> values) {
 
 Particles::Particles(Assembly const& assembly, Options const& options, Backend const& backend)
     : options_(options),
-      order_(assembly.particles),
       backend_(&backend),
       supports_(assembly.supports),
       loads_(assembly.loads),
@@ -86,8 +85,6 @@ Particles::Particles(Assembly const& assembly, Options const& options, Backend c
   set_descriptions();
   std::vector<Partition> equal;
   for (BodyConstants const& b : body_) equal.emplace_back(Range{b.first, b.last});
-  for (Partition& cut : equal)
-    if (assembly.for_estimate_only) cut = Partition(cut.whole(), {0, 0});  // all is of a rank that there is not
   take(std::move(equal));
   set_particles(assembly);
   set_boundaries();
@@ -158,7 +155,7 @@ void Particles::set_particles(Assembly const& assembly) {
   for (std::size_t k = 0; k < body_.size(); ++k)
     with_solid(body_[k].material, [&](auto const& law) {
       for (Index slot = own_[k].first; slot < own_[k].last; ++slot) {
-        std::size_t const i = order_.id(slot);
+        std::size_t const i = at(slot);
         for (int c = 0; c < 3; ++c) {
           double const moved = assembly.initial_displacement.empty() ? 0 : assembly.initial_displacement[i][at(c)];
           fields_.x.at(slot, c) = position_[3 * at(slot) + at(c)] = set_.X[i][at(c)] + moved;
@@ -225,9 +222,7 @@ void Particles::allocate(Assembly const& assembly) {
   s.spatial.stride = s.dimension == 2 ? spatial_stride<2>(s.settings) : spatial_stride<3>(s.settings);
   partial_.resize(16 * (n / 64 + 2));
   s.partial = partial_.data();
-  failure_.id = order_.ids();
   s.failure = &failure_;
-  s.slot_of = order_.slots();
 }
 
 /// Sets the initial kernel types, and the blending at the border of a patch.
@@ -262,22 +257,22 @@ void Particles::set_descriptions() {
 void Particles::set_reference() {
   System& s = system_;
   auto const set_point = [&](Index slot) {
-    std::size_t const i = order_.id(slot);
+    std::size_t const i = at(slot);
     for (int c = 0; c < 3; ++c) fields_.X.at(slot, c) = set_.X[i][at(c)];
     fields_.volume.at(slot) = set_.volume[i];
   };
   for (std::size_t b = 0; b < body_.size(); ++b)
     for (Index i = own_[b].first; i < own_[b].last; ++i) {
       set_point(i);
-      fields_.mass.at(i) = body_[b].rho0 * set_.volume[order_.id(i)];
+      fields_.mass.at(i) = body_[b].rho0 * set_.volume[at(i)];
       bool const deforms = fields_.holds(fields_.F) && fields_.active.at(i) > 0;  // deleted particles keep theirs
       for (int c = 0; c < 9 && deforms; ++c) fields_.F.at(i, c) = c % 4 == 0 ? 1 : 0;
     }
-  set_point(order_.slot(0));  // where cells of space begin
-  if (s.contact.law == 3)     // data of both sides for the potential of the published law
+  set_point(0);            // where cells of space begin
+  if (s.contact.law == 3)  // data of both sides for the potential of the published law
     for (Index i = 0; i < s.particles; ++i) set_point(i);
   if (!lagrangian_ && !material_.built()) return;
-  material_.build(set_, order_, body_, own_, fields_, options_.settings, backend_->lanes);
+  material_.build(set_, body_, own_, fields_, options_.settings, backend_->lanes);
   if (!material_.needs_records()) return;
   using Flat = MaterialRecord<2>;
   using Deep = MaterialRecord<3>;
@@ -303,7 +298,7 @@ void Particles::choose_material() {
 }
 
 void Particles::set_factors() {
-  factors_.build(body_, options_.bodies, own_, set_, order_, energy_totals_.time);
+  factors_.build(body_, options_.bodies, own_, set_, energy_totals_.time);
   system_.own = factors_.view();
 }
 
@@ -345,8 +340,8 @@ void Particles::prepare_supports(double time) {
     if (has_ended(support.until, time)) continue;
     for (auto const id : support.particles)
       for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c) {
-        if (!support.fix[c] || !is_local(order_.slot(id))) continue;
-        std::size_t const k = 3 * at(order_.slot(id)) + c;
+        if (!support.fix[c] || !is_local(static_cast<Index>(id))) continue;
+        std::size_t const k = 3 * at(id) + c;
         held_[k] = 1;
         holder_[k] = number;
         held_velocity_[k] = support.velocity ? (*support.velocity)[c](set_.X[static_cast<std::size_t>(id)], time) : 0;
@@ -361,7 +356,7 @@ void Particles::prepare_loads(double time) {
   for (Load const& load : loads_) {
     if (has_ended(load.until, time)) continue;
     for (std::size_t k = 0; k < load.particles.size(); ++k) {
-      Index const slot = order_.slot(load.particles[k]);
+      auto const slot = static_cast<Index>(load.particles[k]);
       if (!is_local(slot)) continue;
       auto const a = load_on(load, k, X(slot), time);
       for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c) load_[3 * at(slot) + c] += a[c];
@@ -419,8 +414,8 @@ std::vector<ImpulseSum> Particles::impulses(double time, double dt) const {
   };
   for (std::size_t s = 0; s < supports_.size(); ++s)
     for (auto const particle : supports_[s].particles) {
-      std::size_t const slot = at(order_.slot(particle));
-      if (!is_local(order_.slot(particle))) continue;
+      std::size_t const slot = at(particle);
+      if (!is_local(static_cast<Index>(particle))) continue;
       std::array<double, 3> impulse{};
       for (std::size_t c = 0; c < 3; ++c)
         if (holder_[3 * slot + c] == s) impulse[c] = dt * reaction_[3 * slot + c];
@@ -429,7 +424,7 @@ std::vector<ImpulseSum> Particles::impulses(double time, double dt) const {
   for (std::size_t l = 0; l < loads_.size(); ++l) {
     if (loads_[l].name.empty() || has_ended(loads_[l].until, time + 0.5 * dt)) continue;
     for (std::size_t k = 0; k < loads_[l].particles.size(); ++k) {
-      Index const slot = order_.slot(loads_[l].particles[k]);
+      auto const slot = static_cast<Index>(loads_[l].particles[k]);
       if (!is_local(slot)) continue;
       std::array<double, 3> impulse{};
       for (std::size_t c = 0; c < static_cast<std::size_t>(system_.dimension); ++c)
@@ -531,7 +526,7 @@ double Particles::kinetic_energy() const {
 }
 
 std::size_t Particles::bytes() const {
-  return order_.bytes() + fields_.bytes() + sizeof(int) * body_of_.size() + sizeof(double) * position_.size() +
+  return fields_.bytes() + sizeof(int) * body_of_.size() + sizeof(double) * position_.size() +
          correction_.size() * sizeof(Correction) + material_records_.bytes() + material_.bytes() + spatial_.bytes();
 }
 

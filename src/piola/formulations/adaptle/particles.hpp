@@ -7,7 +7,6 @@
 #include "piola/formulations/adaptle/law_factors.hpp"
 #include "piola/formulations/adaptle/lost_surfaces.hpp"
 #include "piola/formulations/adaptle/options.hpp"
-#include "piola/formulations/adaptle/particle_order.hpp"
 #include "piola/formulations/adaptle/particle_partition.hpp"
 #include "piola/formulations/adaptle/reference_lists.hpp"
 #include "piola/formulations/adaptle/spatial_lists.hpp"
@@ -65,7 +64,6 @@ class Particles {
   double next_end_time() const;
 
   System const& system() const { return system_; }
-  ParticleOrder const& order() const { return order_; }
   EnergyTotals const& energy_totals() const { return energy_totals_; }
   /// Reduces the actions of the last step over ranks. Collective.
   Resultants actions() const;
@@ -114,8 +112,6 @@ class Particles {
   }
   /// Mass of a particle of any rank for contact [kg]; 0 for deleted particles, which do not take part in contact.
   double contact_mass(std::int64_t id) const;
-  /// For estimates.
-  CommPattern comm_pattern(int body) const { return StepHaloExchanges::comm_pattern(system_, spatial_, body); }
   ParticlePartition const& local_particles() const { return owned_; }
   /// Lattice lines for observers on several ranks; null on one rank.
   LatticeLineHalo* lines(int body) const {
@@ -142,7 +138,7 @@ class Particles {
   void set_boundaries();
   void allocate(Assembly const& assembly);
   void choose_material();
-  std::array<double, 3> const& X(Index slot) const { return set_.X[order_.id(slot)]; }
+  std::array<double, 3> const& X(Index slot) const { return set_.X[static_cast<std::size_t>(slot)]; }
   void prepare_supports(double time);
   void prepare_loads(double time);
   void prepare_rigid(double time, double dt);
@@ -169,7 +165,6 @@ class Particles {
   void remove(Index i);
 
   Options options_;
-  ParticleOrder order_;
   Backend const* backend_;
   System system_;
   std::vector<BodyConstants> body_;

@@ -53,4 +53,4 @@ struct RateAcross {
   }
 };
 
-}  // namespace piola::adaptle::inline PIOLA_MACHINE
+}  // namespace piola::adaptle::inline PIOLA_BACKEND

@@ -188,4 +188,4 @@ struct HalfVolume {
   }
 };
 
-}  // namespace piola::adaptle::inline PIOLA_MACHINE
+}  // namespace piola::adaptle::inline PIOLA_BACKEND

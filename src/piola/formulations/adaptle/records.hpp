@@ -101,4 +101,4 @@ PIOLA_FN T whole_power(T const& a, int n) {
   return r;
 }
 
-}  // namespace piola::adaptle::inline PIOLA_MACHINE
+}  // namespace piola::adaptle::inline PIOLA_BACKEND

@@ -28,7 +28,7 @@ bool invert_moments(double const* A, double* K) {
 
 }  // namespace
 
-void ReferenceLists::build(ParticleSet const& set, ParticleOrder const& order, std::vector<BodyConstants> const& bodies,
+void ReferenceLists::build(ParticleSet const& set, std::vector<BodyConstants> const& bodies,
                            std::vector<Range> const& own, Fields& fields, Settings const& settings, int lanes) {
   *this = {};
   particles_ = static_cast<Index>(set.size());
@@ -38,12 +38,12 @@ void ReferenceLists::build(ParticleSet const& set, ParticleOrder const& order, s
   begin_ = LazyZeroArray<Offset>(at(particles_) + 1);
   filled_ = LazyZeroArray<std::uint8_t>(at(particles_));
   part_ = LazyZeroArray<std::uint8_t>(at(particles_) + 16);
-  for (std::size_t b = 0; b < bodies.size(); ++b) list(set, order, {set.bodies[b], bodies[b], own[b]}, lanes);
+  for (std::size_t b = 0; b < bodies.size(); ++b) list(set, {set.bodies[b], bodies[b], own[b]}, lanes);
   find_edge();
   for (Index const i : edge_)
     each_neighbour_of({i, i + 1}, [&](Index j) {
-      for (int c = 0; c < 3; ++c) fields.X.at(j, c) = set.X[order.id(j)][at(c)];
-      fields.volume.at(j) = set.volume[order.id(j)];
+      for (int c = 0; c < 3; ++c) fields.X.at(j, c) = set.X[at(j)][at(c)];
+      fields.volume.at(j) = set.volume[at(j)];
     });
   if (published_) {
     for_each_local([&](Index i) {
@@ -58,7 +58,7 @@ void ReferenceLists::build(ParticleSet const& set, ParticleOrder const& order, s
   int const components =
       set.dimension == 2 ? MaterialRecord<2>::values(published_) : MaterialRecord<3>::values(published_);
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    rows_.emplace_back(set, order, LatticeStencils::BodyInput{set.bodies[b], own[b], bodies[b].reference_h}, begin_,
+    rows_.emplace_back(set, LatticeStencils::BodyInput{set.bodies[b], own[b], bodies[b].reference_h}, begin_,
                        neighbour_, lanes, rounded_, components);
   for (LatticeStencils& rows : rows_) row_views_.push_back(rows.view());
 }
@@ -75,23 +75,23 @@ void ReferenceLists::find_edge() {
 
 /// Calls f(slot) for the particles of a body within the search distance of a particle of `own`.
 template <class F>
-void each_around(ParticleSet const& set, ParticleOrder const& order, Range body, Range own, double reach, F const& f) {
+void each_around(ParticleSet const& set, Range body, Range own, double reach, F const& f) {
   std::array<double, 3> low{}, high{};
   for (Index i = own.first; i < own.last; ++i)
     for (std::size_t c = 0; c < 3; ++c) {
-      double const x = set.X[order.id(i)][c];
+      double const x = set.X[at(i)][c];
       low[c] = i == own.first ? x : std::min(low[c], x);
       high[c] = i == own.first ? x : std::max(high[c], x);
     }
   for (Index i = body.first; i < body.last; ++i) {
-    auto const& x = set.X[order.id(i)];
+    auto const& x = set.X[at(i)];
     bool near = true;
     for (std::size_t c = 0; c < 3; ++c) near = near && x[c] >= low[c] - reach && x[c] <= high[c] + reach;
     if (near) f(i);
   }
 }
 
-void ReferenceLists::list(ParticleSet const& set, ParticleOrder const& order, BodyInput const& body, int lanes) {
+void ReferenceLists::list(ParticleSet const& set, BodyInput const& body, int lanes) {
   auto const& [geometry, constants, own] = body;
   begin_[at(own.first)] = static_cast<Offset>(neighbour_.size());
   if (own.first == own.last) return;
@@ -100,28 +100,28 @@ void ReferenceLists::list(ParticleSet const& set, ParticleOrder const& order, Bo
   auto const& place = set.lattice_index.seen();
   std::vector<std::array<double, 3>> points;
   std::vector<Index> slots;
-  each_around(set, order, {constants.first, constants.last}, own, reach, [&](Index i) {
-    points.push_back(set.X[order.id(i)]);
+  each_around(set, {constants.first, constants.last}, own, reach, [&](Index i) {
+    points.push_back(set.X[at(i)]);
     slots.push_back(i);
   });
   CellGrid const grid(points, reach);
   std::vector<Index> near;
   for (Index i = own.first; i < own.last; ++i) {
-    auto const& x = set.X[order.id(i)];
+    auto const& x = set.X[at(i)];
     near.clear();
     grid.visit(x, [&](Index local) {
       Index const j = slots[at(local)];
-      auto const& y = set.X[order.id(j)];
+      auto const& y = set.X[at(j)];
       double const dx = x[0] - y[0], dy = x[1] - y[1], dz = x[2] - y[2];
       if (j != i && dx * dx + dy * dy + dz * dz < reach * reach) near.push_back(j);
     });
-    std::sort(near.begin(), near.end(), [&](Index a, Index b) { return order.id(a) < order.id(b); });
+    std::sort(near.begin(), near.end());
     for (Index const j : near) {
-      auto const& y = set.X[order.id(j)];
+      auto const& y = set.X[at(j)];
       double square = 0;
       for (std::size_t c = 0; c < 3; ++c) square += (y[c] - x[c]) * (y[c] - x[c]);
       // On a lattice: bit-identical for all pairs of one offset, like the patterns.
-      if (lattice) square = lattice_square(geometry, place[order.id(i)], place[order.id(j)]);
+      if (lattice) square = lattice_square(geometry, place[at(i)], place[at(j)]);
       add_pair(set.dimension, constants.reference_h, j, square);
     }
     std::size_t const found = neighbour_.size();

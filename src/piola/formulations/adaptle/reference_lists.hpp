@@ -15,8 +15,8 @@ class ReferenceLists {
   /// Builds lists within 2h of each body, in order of ids, with the data for the sums of `settings`; sets positions and
   /// volumes of ghosts. Particles with a singular correction keep plain gradients. own: local slots of each body.
   /// Collective.
-  void build(ParticleSet const& set, ParticleOrder const& order, std::vector<BodyConstants> const& bodies,
-             std::vector<Range> const& own, Fields& fields, Settings const& settings, int lanes);
+  void build(ParticleSet const& set, std::vector<BodyConstants> const& bodies, std::vector<Range> const& own,
+             Fields& fields, Settings const& settings, int lanes);
 
   /// Determines which particles need a deformation gradient and which receive material forces. Kinematic ones get gap =
   /// 0, others -1. Deleted ones are removed from the sums of their neighbours. Reads phi and alive of all particles.
@@ -63,7 +63,7 @@ class ReferenceLists {
     BodyConstants const& constants;
     Range own;
   };
-  void list(ParticleSet const& set, ParticleOrder const& order, BodyInput const& body, int lanes);
+  void list(ParticleSet const& set, BodyInput const& body, int lanes);
   /// Calls f(slot) for the local particles.
   template <class F>
   void for_each_local(F const& f) const {

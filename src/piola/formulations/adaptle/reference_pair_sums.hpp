@@ -191,4 +191,4 @@ PIOLA_FN void each_in_lists(MaterialTable const& table, Pairs const& pairs, Rang
   });
 }
 
-}  // namespace piola::adaptle::inline PIOLA_MACHINE
+}  // namespace piola::adaptle::inline PIOLA_BACKEND

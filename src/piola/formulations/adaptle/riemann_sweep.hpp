@@ -86,4 +86,4 @@ struct RiemannSweep {
   }
 };
 
-}  // namespace piola::adaptle::inline PIOLA_MACHINE
+}  // namespace piola::adaptle::inline PIOLA_BACKEND

@@ -5,6 +5,7 @@
 #include "piola/formulations/adaptle/observe.hpp"
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/formulations/adaptle/particles.hpp"
+#include "piola/formulations/adaptle/subscript.hpp"
 #include "piola/formulations/common/field_checkpoint.hpp"
 #include "piola/formulations/common/surface_loss.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
@@ -45,7 +46,7 @@ void check(Assembly const& assembly) {
     if (load.follows)
       problems.add({},
                    "adaptle: a pressure follows the deformed face (allowed: pressures along the normal of the start) - "
-                   "remove follows, or take nodal, jst_sph or taylor_sph");
+                   "remove follower, or take nodal, jst_sph or taylor_sph");
   problems.raise_if_any();
 }
 
@@ -79,7 +80,7 @@ class Solver final : public Formulation, public SurfaceLoss {
   }
   void add_velocities(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
     for (std::size_t k = 0; k < ids.size(); ++k) {
-      Index const slot = particles_.order().slot(ids[k]);
+      auto const slot = static_cast<Index>(ids[k]);
       if (!particles_.is_local(slot)) continue;
       for (std::size_t c = 0; c < 3; ++c) particles_.fields().v.at(slot, static_cast<int>(c)) += change[k][c];
     }
@@ -87,7 +88,7 @@ class Solver final : public Formulation, public SurfaceLoss {
   std::int64_t surfaces_lost() const override { return particles_.lost_surfaces().count(); }
   bool has_lost_surface(std::int64_t id) const override {
     auto const& lost = particles_.lost_surfaces().by_slot();
-    return !lost.empty() && lost[at(particles_.order().slot(id))] != 0;
+    return !lost.empty() && lost[at(id)] != 0;
   }
   double kinetic_energy() const override { return particles_.kinetic_energy(); }
   std::optional<Failure> failure() const override;
@@ -112,9 +113,6 @@ class Solver final : public Formulation, public SurfaceLoss {
   std::size_t memory_bytes() const override { return particles_.bytes(); }
   std::optional<RepartitionStatistics> repartition_statistics() const override {
     return particles_.repartition_statistics();
-  }
-  std::optional<CommPattern> comm_pattern(std::size_t body) const override {
-    return particles_.comm_pattern(static_cast<int>(body));
   }
 
  private:
@@ -144,14 +142,14 @@ std::optional<Failure> Solver::failure() const {
   System const& s = particles_.system();
   bool const neighbour_overflow = particles_.neighbour_overflow();
   if (slot.index == FailureSlot::none && !neighbour_overflow) return std::nullopt;
-  Index const i = slot.index == FailureSlot::none ? particles_.order().slot(0) : slot.index;
+  Index const i = slot.index == FailureSlot::none ? 0 : slot.index;
   Fields const& p = particles_.fields();
   Failure f;
-  f.what = neighbour_overflow              ? "is in a crowd of more than 4096 neighbours"
+  f.what = neighbour_overflow              ? "has more than 4096 neighbours"
            : slot.code == not_a_number     ? "has a position, velocity or stress that is not a number"
            : slot.code == negative_density ? "has no positive density"
                                            : "is inverted";
-  f.particle = static_cast<std::int64_t>(particles_.order().id(i));
+  f.particle = i;
   f.body = set_.bodies[static_cast<std::size_t>(s.body_of[i])].name;
   f.X = point_at(s.field.X, i, 3);
   f.x = point_at(s.field.x, i, 3);
@@ -186,7 +184,7 @@ void Solver::load(StateReader& reader) {
     if (&field == &fields.phi || &field == &fields.active) {
       std::vector<double> all(at(particles_.system().particles));
       reader.get(field.name(), all);
-      for (Index i = 0; i < particles_.system().particles; ++i) field.at(i) = all[particles_.order().id(i)];
+      for (Index i = 0; i < particles_.system().particles; ++i) field.at(i) = all[at(i)];
       return;
     }
     std::vector<double> mine(ids.size() * at(field.components()));

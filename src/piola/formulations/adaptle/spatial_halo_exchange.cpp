@@ -28,11 +28,10 @@ std::vector<std::size_t> starts_of(std::size_t own) {
 
 }  // namespace
 
-SpatialHaloExchange::SpatialHaloExchange(std::span<Partition const> cuts, ParticleOrder const& order)
-    : order_(&order), sends_(at(comm::size())), receives_(at(comm::size())) {
+SpatialHaloExchange::SpatialHaloExchange(std::span<Partition const> cuts)
+    : sends_(at(comm::size())), receives_(at(comm::size())) {
   for (Partition const& body : cuts)
     for (Index i = body.own().first; i < body.own().last; ++i) own_.push_back(i);
-  if (order.dealt()) std::ranges::sort(own_, {}, [&](Index slot) { return order.id(slot); });
 }
 
 std::vector<double> SpatialHaloExchange::coordinates(System const& s, std::size_t axis) const {
@@ -166,10 +165,9 @@ void SpatialHaloExchange::meet(System const& s, CellList const& grid, HaloCells&
   select_sends(grid, marks);
   send_counts();
   send_positions(s);
-  auto const by_id = [&](Index slot) { return order_->id(slot); };
-  std::ranges::sort(received_, {}, by_id);
+  std::ranges::sort(received_);
   present_.clear();
-  std::ranges::merge(own_, received_, std::back_inserter(present_), {}, by_id, by_id);
+  std::ranges::merge(own_, received_, std::back_inserter(present_));
 }
 
 void SpatialHaloExchange::Side::choose(CellList const& grid, HaloCells const& marks) {

@@ -3,7 +3,6 @@
 #include "piola/domain/halo_cells.hpp"
 #include "piola/domain/partition.hpp"
 #include "piola/exec/field.hpp"
-#include "piola/formulations/adaptle/particle_order.hpp"
 #include "piola/formulations/adaptle/state.hpp"
 #include <array>
 #include <span>
@@ -16,7 +15,7 @@ namespace piola::adaptle {
 class SpatialHaloExchange {
  public:
   /// cuts: partition of each body.
-  SpatialHaloExchange(std::span<Partition const> cuts, ParticleOrder const& order);
+  explicit SpatialHaloExchange(std::span<Partition const> cuts);
 
   /// Local particles: slots in the order of ids.
   SlotList own() const { return of(own_); }
@@ -77,7 +76,6 @@ class SpatialHaloExchange {
   void send();
   void send_positions(System const& system);
 
-  ParticleOrder const* order_;
   std::vector<Index> own_, received_, present_;
   std::vector<HaloCells::Cell> mine_, all_;  ///< cells; all_: rank after rank
   std::vector<std::size_t> starts_;          ///< indices into all_

@@ -12,9 +12,7 @@ constexpr double far_away = 1e20;
 constexpr Index most_neighbours = 4096;
 
 /// The first particle of the case, where it starts: not of the moment, so that cells stay where they are.
-std::array<double, 3> origin_of_cells(System const& s) {
-  return point_at(s.field.X, s.slot_of != nullptr ? s.slot_of[0] : 0, 3);
-}
+std::array<double, 3> origin_of_cells(System const& s) { return point_at(s.field.X, 0, 3); }
 
 /// Whether this rank works on it.
 bool is_local(System const& s, Index slot) {
@@ -28,7 +26,7 @@ bool is_local(System const& s, Index slot) {
 /// part.
 void SpatialLists::sort_all(System const& s) {
   grid_.find_cells(s.position, 3, s.particles, s.dimension, widest_, origin_of_cells(s));
-  grid_.sort({s.particles, s.slot_of});
+  grid_.sort({s.particles});
   all_interact_ = s.eulerians == s.particles && !touching(s);
   if (all_interact_) return;
   marks_.start(grid_.shape(), s.dimension);

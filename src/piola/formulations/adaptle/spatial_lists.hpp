@@ -24,11 +24,9 @@ class SpatialLists {
   void put_into(System& system);
   std::size_t bytes() const;
   Index longest() const { return longest_; }
-  bool overflow() const { return overflow_; }  ///< a particle has more neighbours than can be listed
   /// Whether there are Eulerian particles or contact.
   static bool needed(System const& system) { return system.eulerians > 0 || touching(system); }
   static bool touching(System const& system) { return system.contact.law > 0 && system.bodies > 1; }
-  double widest() const { return widest_; }  ///< edge of a cell [m]
   /// In the last step, per slot; 0 without a list on this rank.
   LazyZeroArray<int> neighbours_by_slot(System const& system) const;
 

@@ -214,9 +214,8 @@ struct System {
   Index particles = 0;
   Settings settings;
   BodyConstants const* body = nullptr;
-  Range const* part = nullptr;     ///< per body: the local slots
-  int const* body_of = nullptr;    ///< per slot
-  Index const* slot_of = nullptr;  ///< per id; null: slots are ids
+  Range const* part = nullptr;   ///< per body: the local slots
+  int const* body_of = nullptr;  ///< per slot
   ParticleFields field;
   Correction* correction = nullptr;        ///< spatial
   double* position = nullptr;              ///< at half time, 3 per slot: input of the cell grid

@@ -50,19 +50,10 @@ FieldRef of_body(FieldRef field, BodyConstants const& body) {
   return field;
 }
 
-/// Particles stand in the order of ids.
-SlotOrder id_order(ParticleSet const&, Body const& body, int /*ranks*/) {
-  SlotOrder order;
-  for (std::int64_t id = body.first; id < body.last; ++id) order.id.push_back(id);
-  order.particles = static_cast<Index>(order.id.size());
-  return order;
-}
-
 }  // namespace
 
-StepHaloExchanges::StepHaloExchanges(System const& s, ReferenceLists const& lists, std::vector<Partition> cuts,
-                                     ParticleOrder const& order)
-    : near_(cuts, order), cuts_(std::move(cuts)) {
+StepHaloExchanges::StepHaloExchanges(System const& s, ReferenceLists const& lists, std::vector<Partition> cuts)
+    : near_(cuts), cuts_(std::move(cuts)) {
   for (int b = 0; b < s.bodies && lists.built(); ++b) to_neighbours_.push_back(reference_halo(s, lists, b));
 }
 
@@ -135,31 +126,6 @@ void StepHaloExchanges::after_half_state(System const& s) {
 void StepHaloExchanges::after_correction(System const& s) {
   auto const [corrected, all] = parts_of(s);
   near_.exchange({{{{spatial_records(s), corrected, all - corrected}}, {}}});
-}
-
-CommPattern StepHaloExchanges::comm_pattern(System const& s, SpatialLists const& lists, int body) {
-  BodyConstants const& b = s.body[body];
-  bool const touching = SpatialLists::touching(s), is_eulerian = s.eulerians > 0;
-  CommPattern talk;
-  talk.order = &id_order;
-  if (s.material.used) {
-    auto const [motion, stress] = with_material(s.dimension, [&](auto r) {
-      using R = decltype(r);
-      return std::array{R::X, R::values(s.settings.published) - R::A};
-    });
-    bool const with_F = is_eulerian && (b.hourglass > 0 || b.hourglass_stiffness > 0);
-    talk.messages = {{{2 * b.reference_h, motion}}, {{2 * b.reference_h, stress + (with_F ? 18 : 0)}}};
-  }
-  auto const [corrected, all] = parts_of(s);
-  constexpr int slot_and_place = 4, of_contact = 4;
-  talk.near.emplace();
-  talk.near->messages = {{slot_and_place, 0, 0}, {0, s.settings.corrected ? corrected : all, of_contact}};
-  if (s.settings.corrected) talk.near->messages.push_back({0, all - corrected, 0});
-  talk.near->cell = lists.widest();
-  talk.near->touching = touching;
-  talk.near->is_eulerian.assign(s.eulerian + b.first, s.eulerian + b.last);
-  talk.collectives = body == 0 ? 2 : 0;  // failures with bounds, results of the step
-  return talk;
 }
 
 }  // namespace piola::adaptle

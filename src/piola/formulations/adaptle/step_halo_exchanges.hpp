@@ -4,7 +4,6 @@
 #include "piola/formulations/adaptle/reference_lists.hpp"
 #include "piola/formulations/adaptle/spatial_halo_exchange.hpp"
 #include "piola/formulations/adaptle/spatial_lists.hpp"
-#include "piola/formulations/formulation.hpp"
 #include <vector>
 
 namespace piola::adaptle {
@@ -16,8 +15,7 @@ namespace piola::adaptle {
 class StepHaloExchanges {
  public:
   /// system: of a distributed run, with its tables. cuts: partition of each body.
-  StepHaloExchanges(System const& system, ReferenceLists const& lists, std::vector<Partition> cuts,
-                    ParticleOrder const& order);
+  StepHaloExchanges(System const& system, ReferenceLists const& lists, std::vector<Partition> cuts);
 
   /// To be called between the parts of a step (Machine), in this order. before_lists() also broadcasts a failure of any
   /// rank and returns the input of the step's lists.
@@ -26,9 +24,6 @@ class StepHaloExchanges {
   void after_lists(System const& system);
   void after_half_state(System const& system);
   void after_correction(System const& system);
-
-  /// Communication pattern of a body in its current state, computed in a run on one rank.
-  static CommPattern comm_pattern(System const& system, SpatialLists const& lists, int body);
 
  private:
   /// Exchange between reference neighbours of one body.

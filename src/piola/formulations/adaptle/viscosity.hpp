@@ -85,4 +85,4 @@ PIOLA_FN SymMat<D, V> artificial_stress(SymMat<D, V> const& stress, std::type_id
   return R;
 }
 
-}  // namespace piola::adaptle::inline PIOLA_MACHINE
+}  // namespace piola::adaptle::inline PIOLA_BACKEND

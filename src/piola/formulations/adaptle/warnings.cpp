@@ -37,12 +37,13 @@ void doubt_description(BodyOptions const& o, Options const& all, BodyWarnings& s
     ignore(setting_warnings, {"convert_damage"},
            "particles convert with description = \"adaptive\", or fail with \"delete\"");
   if (!adaptive)
-    ignore(setting_warnings, {"conversion_radius", "tether"}, "particles convert with description = \"adaptive\"");
+    ignore(setting_warnings, {"conversion_radius", "conversion_separation"},
+           "particles convert with description = \"adaptive\"");
   if (!adaptive && !o.deletes && !patch)
     ignore(setting_warnings, {"jacobian_min", "jacobian_max"}, "particles convert with description = \"adaptive\"");
   if (!patch) ignore(setting_warnings, {"blend"}, "it belongs to description = \"patch\"");
   if (patch && all.settings.interface_form == Interface::as_published)
-    ignore(setting_warnings, {"blend"}, "interface = \"printed\" is sharp");
+    ignore(setting_warnings, {"blend"}, "interface = \"published\" is sharp");
   if (o.description == Description::eulerian)
     ignore(setting_warnings, {"hourglass", "hourglass_stiffness", "material_smoothing_length"},
            "it is for total-Lagrangian particles, and all are Eulerian");
@@ -52,7 +53,7 @@ void doubt_mixture(Options const& all, BodyWarnings& setting_warnings) {
   Mixture const m = mixture_of(all);
   if (!m.lagrangian || !m.eulerian)
     ignore(setting_warnings, {"interface", "artificial_stress_interface"},
-           "no particles of both descriptions can meet");
+           "no particles of both descriptions can be neighbours");
   if (!m.eulerian) {
     if (number_of(setting_warnings.spec(), "artificial_stress", 0) > 0)
       ignore(setting_warnings, {"artificial_stress"}, "it acts on Eulerian particles, and none can become so");
@@ -77,13 +78,13 @@ void doubt_forces(BodyOptions const& o, Options const& all, int dimension, BodyW
   if (!mixture_of(all).lagrangian) ignore(setting_warnings, {"viscosity_form"}, "no particle is total-Lagrangian");
   if (setting_warnings.has_setting("viscosity_form", "central") && all.settings.published)
     ignore(setting_warnings, {"viscosity_form"},
-           "correction = \"mixed\" and interface = \"printed\" have the form that is printed");
+           "correction = \"mixed\" and interface = \"published\" have the published form");
   if (all.settings.published)
     ignore(setting_warnings, {"hourglass_stiffness"},
            "it needs viscosity_form = \"central\" and correction = \"material\"");
   if (o.ignition && !is_explosive(setting_warnings.material()))
     ignore(setting_warnings, {"ignition"}, "the material is no explosive (eos = \"jwl\")");
-  if (!o.initial_pressure) ignore(setting_warnings, {"initial_pressure_lasts"}, "there is no initial_pressure");
+  if (!o.initial_pressure) ignore(setting_warnings, {"initial_pressure_duration"}, "there is no initial_pressure");
   if (dimension == 3 && setting_warnings.has_setting("assumption", "plane_strain"))
     ignore(setting_warnings, {"assumption"}, "the body has three dimensions");
 }
@@ -100,8 +101,8 @@ void doubt_tension(BodyOptions const& o, BodyWarnings& setting_warnings) {
   if (unlimited && is_eulerian)
     setting_warnings.add(
         "material.spall_pressure",
-        "nothing limits the tension of a metal that flows as Eulerian particles (where it is fast, hundreds of GPa "
-        "of it, and energies below zero) - give spall_pressure or a damage law");
+        "nothing limits the tension of a metal in Eulerian particles (where it is fast, hundreds of GPa of it, and "
+        "energies below zero) - give spall_pressure or a damage law");
 }
 
 /// Criteria of damage for a law without it, and damage from which nothing follows.

@@ -39,7 +39,6 @@ class ReplicatedFormulation final : public Formulation {
   int stages_per_step() const override { return of().stages_per_step(); }
   std::vector<std::pair<std::string, double>> timings() const override { return of().timings(); }
   std::size_t memory_bytes() const override { return of().memory_bytes(); }
-  std::optional<CommPattern> comm_pattern(std::size_t body) const override { return of().comm_pattern(body); }
   std::optional<RepartitionStatistics> repartition_statistics() const override { return of().repartition_statistics(); }
 
  private:

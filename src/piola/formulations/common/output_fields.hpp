@@ -26,7 +26,7 @@ struct ParticleOutput {
   double damage = 0, kernel_type = 0;  ///< 0 to 1; 0: total-Lagrangian, 1: Eulerian
   double temperature = 0;              ///< [K]
   double specific_energy = 0;          ///< [J/kg]
-  double strain_drift = 0;             ///< strain drift: strain that is inconsistent with the stress
+  double strain_drift = 0;             ///< strain that is inconsistent with the stress
   double contact_pressure = 0;         ///< [Pa]
   double contact_gap = 0, slip = 0;    ///< [m]
   double friction_heat = 0;            ///< [J/m2]

@@ -310,7 +310,7 @@ void ContactCoupling::report(Diagnostics& sum) const {
   double& overlap = column("contact_overlap");
   overlap = std::max({overlap, now.deepest, between.deepest, colours_.totals().deepest});
   column("friction_heat") = friction_work_ - now.spring_energy;
-  column("contact_dissipation") = chatter_loss_;
+  column("chatter_damping_loss") = chatter_loss_;
   column("contact_points") = static_cast<double>(now.touched) + between.touched + colours_.totals().touched;
   ties_.report(sum);
   auto const named = [&](std::size_t k) {

@@ -52,12 +52,6 @@ class ContactCoupling {
   bool sample(std::string_view field, std::span<double> values) const;
   void save(StateWriter& writer) const;
   void load(StateReader& reader);
-  /// Number of particles of a part that are read in every step; known before look().
-  std::size_t coupled_particle_count(std::size_t part) const {
-    std::size_t n = 0;
-    for (GroupParticles const& share : shares_) n += share.part == part ? share.local.size() : 0;
-    return n;
-  }
   std::size_t bytes() const { return system_.bytes() + ties_.bytes() + colours_.bytes(); }
 
  private:

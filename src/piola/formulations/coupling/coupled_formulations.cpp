@@ -144,7 +144,6 @@ class CoupledFormulations : public Formulation, public SetUpChecked {
       for (SetUpCheck& check : set_up_checks_of(*formulation)) all.push_back(std::move(check));
     return all;
   }
-  std::optional<CommPattern> comm_pattern(std::size_t body) const override;
   std::optional<RepartitionStatistics> repartition_statistics() const override {
     for (auto const& formulation : formulations_)
       if (auto of_part = formulation->repartition_statistics()) return of_part;  // of one part at most
@@ -189,23 +188,6 @@ class CoupledFormulations : public Formulation, public SetUpChecked {
   std::size_t body_count_ = 0, support_count_ = 0, load_count_ = 0;
 };
 
-std::optional<CommPattern> CoupledFormulations::comm_pattern(std::size_t body) const {
-  for (std::size_t k = 0; k < parts_.size(); ++k) {
-    auto const here = parts_[k].body_in_part(body);
-    if (!here) continue;
-    auto talk = formulations_[k]->comm_pattern(*here);
-    if (!talk) return talk;
-    if (talk->near) talk->near->group = k;
-    StepEstimate const own = formulations_[k]->step_estimate_of_run();
-    if (talk->stages == 0) talk->stages = formulations_[k]->stages_per_step() + own.more_stages;
-    double const step = step_estimate_of_run().settled;
-    talk->account_for_shorter_steps(own.settled, meeting_ ? meeting_->limit(step) : step);
-    if (meeting_ && *here == 0) talk->add_coupled_particles(meeting_->coupled_particle_count(k));
-    return talk;
-  }
-  return std::nullopt;
-}
-
 StepEstimate CoupledFormulations::step_estimate_of_run() const {
   StepEstimate rule;
   rule.settled = std::numeric_limits<double>::infinity();
@@ -222,8 +204,6 @@ StepEstimate CoupledFormulations::step_estimate_of_run() const {
     rule.limit += ", with ties between bodies";
   }
   rule.first = std::min(first, rule.settled);
-  rule.more_stages = mean([](Formulation const& f) { return f.step_estimate_of_run().more_stages; });
-  rule.setup_stages = mean([](Formulation const& f) { return f.step_estimate_of_run().setup_stages; });
   return rule;
 }
 
@@ -372,14 +352,6 @@ std::vector<std::int64_t> CoupledFormulations::owned_of(std::size_t part) const 
 }
 
 }  // namespace
-
-std::vector<std::size_t> coupled_particle_counts(Assembly const& whole, std::vector<FormulationGroup> const& parts) {
-  std::vector<std::size_t> read(parts.size(), 0);
-  if (whole.surfaces.empty()) return read;
-  ContactCoupling const meeting(whole, parts);
-  for (std::size_t k = 0; k < parts.size(); ++k) read[k] = meeting.coupled_particle_count(k);
-  return read;
-}
 
 std::unique_ptr<Formulation> make_coupled_formulations(Assembly const& whole, std::vector<FormulationGroup> parts,
                                                        std::vector<std::unique_ptr<Formulation>> formulations) {

@@ -36,9 +36,6 @@ struct FormulationGroup {
 /// parts with kernel contact. With surface contact, each of their bodies becomes a part without them instead.
 std::vector<FormulationGroup> split_by_formulation(Assembly const& whole);
 
-/// Per part: the number of particles that surface contact and ties read in every step.
-std::vector<std::size_t> coupled_particle_counts(Assembly const& whole, std::vector<FormulationGroup> const& parts);
-
 /// Combines the formulations of all parts. All take the same step, the smallest of their limits. Totals and columns of
 /// history.csv with equal names are sums; pressure_oscillation is the largest. Fields are the union; bodies whose
 /// formulation lacks a field show zero. If the whole assembly has surfaces, bodies and rigid shapes are in surface

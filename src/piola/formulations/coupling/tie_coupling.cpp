@@ -91,8 +91,8 @@ void TieCoupling::report(Diagnostics& sum) const {
   if (!any()) return;
   auto const& now = ties_.totals();
   sum.more.emplace_back("tie_energy", now.energy);
-  sum.more.emplace_back("tie_heat", now.heat - handed_over_);
-  sum.more.emplace_back("tie_failed", now.failed);
+  sum.more.emplace_back("tie_dissipation", now.heat - handed_over_);
+  sum.more.emplace_back("tie_failed_fraction", now.failed);
 }
 
 void TieCoupling::add_actions(double scale, std::vector<Action>& all) const {

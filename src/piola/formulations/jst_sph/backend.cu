@@ -51,4 +51,4 @@ void launch(int dimension, Range r, void const* passes, exec::Scratch const& scr
   if (dimension == 3) launch_all<3>(r, passes, scratch, partial);
 }
 
-}  // namespace piola::jst_sph::inline PIOLA_MACHINE
+}  // namespace piola::jst_sph::inline PIOLA_BACKEND

@@ -22,14 +22,14 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
     : body_(set.bodies[body]),
       options_(options),
       D_(set.dimension),
-      order_(bisected(set, body_, shuffled_order(set, body_), comm::size())),
+      order_(bisected(set, body_, pencil_order(set, body_), comm::size())),
       set_(&set),
       images_(assembly, body, order_, {reach(), reach(), reach()}),
       fields_(D_),
       boundary_(assembly, body, order_, images_.planes(), cloud(set)) {
   if (options_.filter && images_.skew())
     throw InputError(
-        fmt::format("body '{}': a skew mirror plane turns strains round, which the volumetric filter does not "
+        fmt::format("body '{}': an antisymmetric mirror plane turns strains round, which the volumetric filter does not "
                     "know of - take scheme = \"paper\" or another support",
                     body_.name));
   make_pairs(set, backend);

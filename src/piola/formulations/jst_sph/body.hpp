@@ -40,7 +40,6 @@ class JstBody {
   /// Slots of the local particles: all on one rank.
   Range own() const;
   /// Communication pattern of the body; a step has one or two right-hand sides.
-  CommPattern comm_pattern() const;
   /// Lattice lines for observers if the body is distributed; else nullptr.
   LatticeLineHalo* lines() const { return lines_.get(); }
   /// Advances from `time` to time + dt, with supports and loads.

@@ -52,4 +52,4 @@ struct TurnLoads {
   }
 };
 
-}  // namespace piola::jst_sph::inline PIOLA_MACHINE
+}  // namespace piola::jst_sph::inline PIOLA_BACKEND

@@ -79,18 +79,4 @@ void JstBody::mark_halo() {
       if (marked.emplace(t.field.data, t.first).second) halo_->add(t.field, t.first, t.count, t.far ? 1 : 0);
 }
 
-CommPattern JstBody::comm_pattern() const {
-  CommPattern talk;
-  double const near = options_.kernel->support * spacing() * options_.gradient_support,
-               far = std::max(near, options_.kernel->support * spacing() * options_.laplacian_support);
-  for (auto const& parts : told()) {
-    talk.messages.emplace_back();
-    for (Told const& t : parts) talk.messages.back().push_back({t.far ? far : near, t.count});
-  }
-  // Verlet: sums of motion and of forces; Runge-Kutta: of forces in both stages. With them go the largest wave speed
-  // and the first failure, unless volumes fail later.
-  talk.collectives = 2 + (options_.smoothed_volume() ? 1 : 0);
-  return talk;
-}
-
 }  // namespace piola::jst_sph

@@ -94,4 +94,4 @@ class Filter {
   Halo halo_;
 };
 
-}  // namespace piola::jst_sph::inline PIOLA_MACHINE
+}  // namespace piola::jst_sph::inline PIOLA_BACKEND

@@ -110,4 +110,4 @@ class Forces {
   Loader loader_;
 };
 
-}  // namespace piola::jst_sph::inline PIOLA_MACHINE
+}  // namespace piola::jst_sph::inline PIOLA_BACKEND

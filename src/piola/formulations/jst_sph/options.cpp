@@ -85,7 +85,7 @@ FormulationInfo info() {
       diagnostics};
   info.cell_volumes = true;
   info.can_be_coupled = true;
-  info.on_ranks = info.observes_locally = true;
+  info.observes_locally = true;
   info.removed = removed;
   return info;
 }

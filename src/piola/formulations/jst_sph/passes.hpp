@@ -358,4 +358,4 @@ struct HoldSupports {
   }
 };
 
-}  // namespace piola::jst_sph::inline PIOLA_MACHINE
+}  // namespace piola::jst_sph::inline PIOLA_BACKEND

@@ -70,8 +70,6 @@ class Solver final : public Formulation {
     rule.growth = growth;
     rule.limit =
         "the stability limit of the fastest mode, measured (run.cfl, without a default here, would replace it)";
-    rule.more_stages = StabilityMonitor::stages_per_step;
-    rule.setup_stages = StabilityMonitor::setup_stages;
     return rule;
   }
 
@@ -138,11 +136,6 @@ class Solver final : public Formulation {
   void load(StateReader& reader) override;
 
   int stages_per_step() const override { return bodies_.front()->options().integrator == Integrator::verlet ? 1 : 2; }
-  std::optional<CommPattern> comm_pattern(std::size_t body) const override {
-    CommPattern talk = bodies_[body]->comm_pattern();
-    if (monitors_[body]) talk.collectives += StabilityMonitor::collectives_per_step;
-    return talk;
-  }
   std::size_t memory_bytes() const override {
     std::size_t total = set_.bytes();
     for (auto const& body : bodies_) total += body->bytes();

@@ -145,8 +145,6 @@ struct Backend {
   void (*update_wave_speed)(BodyState& body);     ///< from the current F
   double (*largest_wave_speed)(BodyState& body);  ///< m/s
   void (*update_deformation)(BodyState& body);    ///< displacement variables: F from x
-  double (*run_fma_chains)(long rounds);          ///< for benchmarks, see exec/peak_memory.hpp
-  void (*copy)(double const* from, double* to, Index n);
 };
 
 /// The instruction set of that name, or the best one of this processor for "auto"; nullptr if it is unknown or not

@@ -126,4 +126,4 @@ class Step {
   Halo halo_;
 };
 
-}  // namespace piola::jst_sph::inline PIOLA_MACHINE
+}  // namespace piola::jst_sph::inline PIOLA_BACKEND

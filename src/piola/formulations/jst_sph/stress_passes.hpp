@@ -183,4 +183,4 @@ struct AdvanceVolume {
   }
 };
 
-}  // namespace piola::jst_sph::inline PIOLA_MACHINE
+}  // namespace piola::jst_sph::inline PIOLA_BACKEND

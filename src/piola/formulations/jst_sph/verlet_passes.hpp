@@ -153,4 +153,4 @@ struct HoldVelocity {
   }
 };
 
-}  // namespace piola::jst_sph::inline PIOLA_MACHINE
+}  // namespace piola::jst_sph::inline PIOLA_BACKEND

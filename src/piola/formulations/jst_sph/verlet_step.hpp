@@ -114,4 +114,4 @@ class VerletStep {
   Halo halo_;
 };
 
-}  // namespace piola::jst_sph::inline PIOLA_MACHINE
+}  // namespace piola::jst_sph::inline PIOLA_BACKEND

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loops of the nodal formulation for one machine; compiled once per instruction set (PIOLA_MACHINE).
+// The loops of the nodal formulation for one machine; compiled once per instruction set (PIOLA_BACKEND).
 #include "piola/formulations/nodal/step.hpp"
 
 namespace piola::nodal::inline PIOLA_BACKEND {
@@ -53,4 +53,4 @@ extern Backend const backend;
 Backend const backend{PIOLA_BACKEND_NAME, lane_count, &step,    &accelerate, &observe,
                       &largest_change,    &keep,      &restore, &project,    &subtract_gradients};
 
-}  // namespace piola::nodal::inline PIOLA_MACHINE
+}  // namespace piola::nodal::inline PIOLA_BACKEND

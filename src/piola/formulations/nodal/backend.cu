@@ -70,4 +70,4 @@ void launch(int dimension, Range r, void const* passes, exec::Scratch const& scr
   if (dimension == 3) launch_all<3>(r, passes, scratch);
 }
 
-}  // namespace piola::nodal::inline PIOLA_MACHINE
+}  // namespace piola::nodal::inline PIOLA_BACKEND

@@ -30,4 +30,4 @@ struct FusedBlock {
   }
 };
 
-}  // namespace piola::nodal::inline PIOLA_MACHINE
+}  // namespace piola::nodal::inline PIOLA_BACKEND

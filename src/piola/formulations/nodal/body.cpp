@@ -5,7 +5,6 @@
 #include "piola/domain/first_failure.hpp"
 #include "piola/domain/sum_over_slots.hpp"
 #include "piola/exec/host_loops.hpp"
-#include "piola/formulations/nodal/dealt_reference.hpp"
 #include "piola/formulations/nodal/mirror_passes.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
 #include "piola/materials/laws.hpp"
@@ -40,13 +39,13 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
     : body_(set.bodies[body]),
       options_(options),
       D_(set.dimension),
-      order_(shuffled_within_parts(set, slot_order(set, body_))),
-      images_(make_images(assembly, body, order_)),
+      order_(slot_order(set, body_)),
+      images_(make_images(assembly, body)),
       set_(&set),
       fields_(D_, options.fluctuation_viscosity > 0 || options.shock_viscosity > 0, options.solids,
               !assembly.initial_deformation_gradient.empty()) {
   set_materials(materials_of(assembly, body));
-  set_up(assembly, body, backend);
+  set_up(assembly, backend);
   if (!images_.empty() && !reference_.held.empty())
     throw InputError(fmt::format(
         "body '{}': a support that holds the surface of a patch does not go together with mirror planes (allowed: "
@@ -65,35 +64,32 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
   backend.step(state_, 0);  // the accelerations of the start
 }
 
-/// In the order of the body, whatever order its particles stand in.
-void NodalBody::set_up(Assembly const& assembly, std::size_t body, Backend const& backend) {
-  SlotOrder const order = slot_order(*set_, body_);
-  MirrorImages const images = make_images(assembly, body, order);
-  reference_ = make_reference({*set_, body_, order, assembly.loads, assembly.supports, densities(), options_.least_mass,
-                               backend, images.empty() ? nullptr : &images, 1e-3,
+void NodalBody::set_up(Assembly const& assembly, Backend const& backend) {
+  reference_ = make_reference({*set_, body_, order_, assembly.loads, assembly.supports, densities(),
+                               options_.least_mass, backend, images_.empty() ? nullptr : &images_,
                                comm::is_parallel() ? std::optional(state_.slots) : std::nullopt});
-  if (order.id != order_.id) reference_ = dealt_reference(std::move(reference_), order, order_);
 }
 
 /// Images of the whole body, for the set-up of cells, fits and masses. Between two planes it is endless; images beyond
 /// eight spacings have no effect.
-MirrorImages NodalBody::make_images(Assembly const& assembly, std::size_t body, SlotOrder const& order) const {
+MirrorImages NodalBody::make_images(Assembly const& assembly, std::size_t body) const {
   constexpr double far = 8;
   std::array<double, 3> reach = body_.spacing;  // of directions without planes: any
   for (auto const& plane : assembly.mirrors) {
     if (plane.body != body) continue;
     if (plane.skew)
-      throw InputError(fmt::format(
-          "body '{}': a skew mirror plane is a symmetry of small strains alone, and nodal has one energy for all "
-          "(allowed: mirror planes without skew; skew ones in jst_sph) - remove skew, or the plane",
-          body_.name));
+      throw InputError(
+          fmt::format("body '{}': an antisymmetric mirror plane is a symmetry of small strains alone, and nodal has "
+                      "one energy for all "
+                      "(allowed: symmetric planes; antisymmetric ones in jst_sph) - remove antisymmetric, or the plane",
+                      body_.name));
     if (plane.axis >= D_) continue;  // refused below
     auto const axis = static_cast<std::size_t>(plane.axis);
     bool const endless = reach[axis] > body_.spacing[axis];
     double const length = body_.spacing[axis] * (body_.lattice[axis] + 1);
     reach[axis] = endless ? far * body_.spacing[axis] : 2 * length;
   }
-  return {assembly, body, order, reach};
+  return {assembly, body, order_, reach};
 }
 
 /// How images follow: records of motion have X and mu of their own, which stay.

@@ -41,7 +41,6 @@ class NodalBody {
   Reference const& reference() const { return reference_; }
   bool shared() const { return halo_ != nullptr; }
   /// Communication pattern of the body while strains change slowly.
-  CommPattern comm_pattern() const;
   /// Slots of the local particles: all on one rank.
   Range own() const;
   /// Lattice lines for observers if the body is distributed; else nullptr.
@@ -93,8 +92,8 @@ class NodalBody {
   double share(Index slot) const {
     return reference_.share.empty() ? 1 : reference_.share[static_cast<std::size_t>(slot)];
   }
-  void set_up(Assembly const& assembly, std::size_t body, Backend const& backend);
-  MirrorImages make_images(Assembly const& assembly, std::size_t body, SlotOrder const& order) const;
+  void set_up(Assembly const& assembly, Backend const& backend);
+  MirrorImages make_images(Assembly const& assembly, std::size_t body) const;
   void attach_images();
   void keep_own_side();
   int step(Backend const& backend, double time, double dt, int halvings);

@@ -20,4 +20,4 @@ struct CellPoints {
   }
 };
 
-}  // namespace piola::nodal::inline PIOLA_MACHINE
+}  // namespace piola::nodal::inline PIOLA_BACKEND

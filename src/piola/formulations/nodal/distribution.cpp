@@ -4,7 +4,6 @@
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/nodal/body.hpp"
 #include "piola/formulations/nodal/halo_fields.hpp"
-#include "piola/formulations/nodal/quadratic.hpp"
 #include <algorithm>
 
 namespace piola::nodal {
@@ -37,16 +36,6 @@ std::vector<Index> NodalBody::slots_read() const {
       read.push_back(b < order_.slots() ? b : images_.particles().source[static_cast<std::size_t>(b - order_.slots())]);
     }
   return read;
-}
-
-CommPattern NodalBody::comm_pattern() const {
-  CommPattern talk;
-  double const reach = usual_reach * *std::max_element(body_.spacing.begin(), body_.spacing.begin() + D_);
-  int const used = with_dimension(D_, [](auto dimension) { return Records<dimension>::used; });
-  talk.messages = {{{reach, D_}}, {{reach, D_ * used}}};
-  talk.collectives = 1;  // the first failure with the largest change of a strain
-  talk.order = [](ParticleSet const& set, Body const& body, int) { return slot_order(set, body); };
-  return talk;
 }
 
 }  // namespace piola::nodal

@@ -173,4 +173,4 @@ PIOLA_FN void put_row(WriteView const& stress, Index i, int c, Lanes (&row)[Reco
   store_records(stress.data + i * stress.particle_stride + c * Records<D>::width, stress.particle_stride, row);
 }
 
-}  // namespace piola::nodal::inline PIOLA_MACHINE
+}  // namespace piola::nodal::inline PIOLA_BACKEND

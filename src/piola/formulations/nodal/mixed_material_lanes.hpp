@@ -47,4 +47,4 @@ class SharedLanes {
   double kept_[values * lane_count]{};
 };
 
-}  // namespace piola::nodal::inline PIOLA_MACHINE
+}  // namespace piola::nodal::inline PIOLA_BACKEND

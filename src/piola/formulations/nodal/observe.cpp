@@ -93,7 +93,7 @@ Diagnostics finish(NodalObservation o) {
     o.least_jacobian = -below;
   }
   Diagnostics d = o.finish();
-  d.more = {{"least_jacobian", o.least_jacobian},
+  d.more = {{"cell_jacobian_min", o.least_jacobian},
             {"repeated_steps", o.repeated_steps},
             {"cell_pressure_oscillation", o.of_cells.finish().pressure_oscillation},
             {"plastic_work", o.plastic_work.value(0)},
@@ -113,7 +113,7 @@ constexpr std::array<std::string_view, 20> offered{"Displacement",
                                                    "FirstPiolaStress",
                                                    "DeformationGradient",
                                                    "Jacobian",
-                                                   "LeastJacobian",
+                                                   "CellJacobianMin",
                                                    "VonMisesStress",
                                                    "Density",
                                                    "Neighbours",

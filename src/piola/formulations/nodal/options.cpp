@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 11> laws_without_failure{
     "steinberg_guinan"};
 
 constexpr std::array parameters{
-    Parameter{"least_mass", "1",
+    Parameter{"min_mass_ratio", "1",
               "smallest mass of a particle over that of its cell: more allows longer steps and makes the inertia of "
               "edges less exact",
               Interval{0.05, 1}, 0.3},
@@ -28,8 +28,7 @@ constexpr std::array parameters{
               "viscous pressure in compression, in shares of one that smears a shock over a few spacings; try 1",
               Interval{0, 10}, 0},
     Parameter{"chatter_damping", "1",
-              "of the heat of friction in a step the share that damping of the particles under rubbing points may "
-              "take; 0: none, and friction makes them chatter",
+              "largest fraction of a step's friction heat that chatter damping may dissipate; 0: no damping",
               Interval{0, 1}, 0.05},
     Parameter{"energy_tolerance", "1",
               "share of the largest energy by which total energy may rise and fall with the accelerations, as it does "
@@ -43,7 +42,7 @@ constexpr std::array choices{Choice{
     assumption_words}};
 
 /// Columns of Diagnostics::more (observe.cpp).
-constexpr std::array diagnostics{DiagnosticInfo{"least_jacobian", "1"}, DiagnosticInfo{"repeated_steps", "1"},
+constexpr std::array diagnostics{DiagnosticInfo{"cell_jacobian_min", "1"}, DiagnosticInfo{"repeated_steps", "1"},
                                  DiagnosticInfo{"cell_pressure_oscillation", "1"}, DiagnosticInfo{"plastic_work", "J"},
                                  DiagnosticInfo{"internal_energy", "J"}};
 
@@ -59,7 +58,7 @@ FormulationInfo info() {
       laws_without_failure,
       diagnostics};
   info.can_be_coupled = true;
-  info.on_ranks = info.observes_locally = true;
+  info.observes_locally = true;
   info.parts = true;
   info.surface_supports = true;
   info.outline = true;  // cells end at the surface, and mirror planes are there
@@ -96,7 +95,7 @@ Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters
   }
   problems.raise_if_any();
   Options o;
-  o.least_mass = number_of(spec, "least_mass", 0.3);
+  o.least_mass = number_of(spec, "min_mass_ratio", 0.3);
   o.fluctuation_viscosity = number_of(spec, "fluctuation_viscosity", 0);
   o.shock_viscosity = number_of(spec, "shock_viscosity", 0);
   o.energy_tolerance = number_of(spec, "energy_tolerance", 1e-3);

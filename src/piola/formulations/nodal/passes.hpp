@@ -179,4 +179,4 @@ struct LargestChange {
   }
 };
 
-}  // namespace piola::nodal::inline PIOLA_MACHINE
+}  // namespace piola::nodal::inline PIOLA_BACKEND

@@ -38,4 +38,4 @@ PIOLA_FN void monomials(Vec<D, V> const& r, V (&p)[Quadratic<D>::values]) {
     for (int j = i + 1; j < D; ++j) p[1 + D + Quadratic<D>::at(i, j)] = r[i] * r[j];
 }
 
-}  // namespace piola::nodal::inline PIOLA_MACHINE
+}  // namespace piola::nodal::inline PIOLA_BACKEND

@@ -294,10 +294,10 @@ bool is_slender(SetUp const& from) {
 }
 
 /// The lattice of a body for loops, if possible. Lists are needed by follower pressures, which use gradients particle
-/// by particle, by images, which are not on the lattice, and by shuffled bodies.
+/// by particle, and by images, which are not on the lattice.
 std::optional<LatticeShape> shape_for_loops(SetUp const& from) {
   bool const follows = std::any_of(from.loads.begin(), from.loads.end(), [](Load const& load) { return load.follows; });
-  if (follows || from.images != nullptr || shuffle_forces_lists() || is_slender(from)) return std::nullopt;
+  if (follows || from.images != nullptr || is_slender(from)) return std::nullopt;
   return lattice_shape(from.set, from.body, from.order);
 }
 
@@ -311,8 +311,9 @@ void refuse_without_cell(SetUp const& from, ScaledBody const& scaled) {
 template <int D>
 IntegrationCorrection find_integration_correction(SetUp const& from, IntegrationConstraint<D> const& divergence,
                                                   SymmetryReduction<D> const* fold, Reference& r) {
-  IntegrationCorrection integration_correction = divergence.solve(
-      from.integration_tolerance, from.backend, r.lattice ? &*r.lattice : nullptr, {fold, r.halo.get()});
+  constexpr double tolerance = 1e-3;  // of the first residual; smaller values change no result
+  IntegrationCorrection integration_correction =
+      divergence.solve(tolerance, from.backend, r.lattice ? &*r.lattice : nullptr, {fold, r.halo.get()});
   if (integration_correction.rounding > most_rounding) r.lattice.reset();  // lists take differences of positions first
   r.integration_iterations = integration_correction.iterations;
   check_integration(from, integration_correction, r.checks);

@@ -224,4 +224,4 @@ class SolidCells {
   WriteView history_out_;
 };
 
-}  // namespace piola::nodal::inline PIOLA_MACHINE
+}  // namespace piola::nodal::inline PIOLA_BACKEND

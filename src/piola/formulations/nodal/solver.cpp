@@ -52,8 +52,6 @@ class Solver final : public Formulation, public SetUpChecked {
     }
     rule.limit =
         "the stability limit of the fastest mode, measured (run.cfl, without a default here, would replace it)";
-    rule.more_stages = StabilityMonitor::stages_per_step;
-    rule.setup_stages = StabilityMonitor::setup_stages;
     return rule;
   }
 
@@ -142,16 +140,6 @@ class Solver final : public Formulation, public SetUpChecked {
   std::optional<std::vector<std::int64_t>> local_particles() const override { return local_ids(bodies_); }
 
   int stages_per_step() const override { return 1; }
-  std::optional<CommPattern> comm_pattern(std::size_t body) const override {
-    CommPattern talk = bodies_[body]->comm_pattern();
-    if (monitors_[body]->is_given()) return talk;
-    talk.collectives += StabilityMonitor::collectives_per_step;
-    talk.more_if_shortened = StabilityMonitor::more_if_shortened;
-    double least = monitors_[body]->step();
-    for (auto const& monitor : monitors_) least = std::min(least, monitor->step());
-    talk.account_for_shorter_steps(monitors_[body]->step(), least);
-    return talk;
-  }
   std::vector<std::pair<std::string, double>> timings() const override;
   std::vector<SetUpCheck> set_up_checks() const override;
   std::size_t memory_bytes() const override {

@@ -11,16 +11,9 @@ namespace piola::nodal {
 /// as soon as a strain has changed by 0.1. The state is left unchanged.
 class StabilityMonitor {
  public:
-  /// Cost of the step-limit estimate in right-hand sides: of the first estimate, and per step while strains change
-  /// slowly.
-  static constexpr double setup_stages = 25, stages_per_step = 0.1;
   /// For estimates: growth factor per step from step() at the start to calm_step() that gives as many additional steps
   /// as the short ones before the first measurement in motion.
   static constexpr double growth_at_start = 1.043;
-  /// Allreduces per step: energy error indicator in every fourth slow step and in all steps before the first
-  /// measurement, and measurements. In externally shortened steps the indicator is reduced each time, but measurements
-  /// are rarer.
-  static constexpr double collectives_per_step = 0.9, more_if_shortened = 0.3;
 
   /// Fraction of the energy tolerance for B dt^2. As steps become shorter while B grows from B_0, B dt^2 / 6 ln(B /
   /// B_0) is added.

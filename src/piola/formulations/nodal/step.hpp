@@ -198,4 +198,4 @@ class Step {
   Halo halo_;
 };
 
-}  // namespace piola::nodal::inline PIOLA_MACHINE
+}  // namespace piola::nodal::inline PIOLA_BACKEND

@@ -50,4 +50,4 @@ class StressFree {
   double lateral_;  ///< of linear elasticity: lateral strain over in-plane strain, with its sign
 };
 
-}  // namespace piola::nodal::inline PIOLA_MACHINE
+}  // namespace piola::nodal::inline PIOLA_BACKEND

@@ -268,4 +268,4 @@ struct SubtractGradients {
   }
 };
 
-}  // namespace piola::nodal::inline PIOLA_MACHINE
+}  // namespace piola::nodal::inline PIOLA_BACKEND

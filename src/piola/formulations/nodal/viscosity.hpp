@@ -104,4 +104,4 @@ struct Viscosity {
   }
 };
 
-}  // namespace piola::nodal::inline PIOLA_MACHINE
+}  // namespace piola::nodal::inline PIOLA_BACKEND

@@ -452,4 +452,4 @@ struct CellEnergies {
   }
 };
 
-}  // namespace piola::taylor_sph::inline PIOLA_MACHINE
+}  // namespace piola::taylor_sph::inline PIOLA_BACKEND

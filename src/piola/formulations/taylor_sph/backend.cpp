@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loops of Taylor-SPH for one machine; compiled once per instruction set (PIOLA_MACHINE).
+// The loops of Taylor-SPH for one machine; compiled once per instruction set (PIOLA_BACKEND).
 #include "piola/formulations/taylor_sph/step.hpp"
 #include "piola/kernels/list.hpp"
 
@@ -66,4 +66,4 @@ extern Backend const backend;
 Backend const backend{PIOLA_BACKEND_NAME, lane_count, &half_step,    &full_step,  &impose, &filter, &motion,
                       &add_rigid,         &place,     &adjoint_step, &cell_energy};
 
-}  // namespace piola::taylor_sph::inline PIOLA_MACHINE
+}  // namespace piola::taylor_sph::inline PIOLA_BACKEND

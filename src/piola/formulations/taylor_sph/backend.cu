@@ -59,4 +59,4 @@ void launch(int dimension, Range r, void const* pass) {
   if (dimension == 3) launch_all<3>(r, pass);
 }
 
-}  // namespace piola::taylor_sph::inline PIOLA_MACHINE
+}  // namespace piola::taylor_sph::inline PIOLA_BACKEND

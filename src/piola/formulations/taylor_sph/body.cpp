@@ -4,6 +4,7 @@
 #include "piola/exec/host_loops.hpp"
 #include "piola/materials/laws.hpp"
 #include "piola/mechanics/prescribed.hpp"
+#include "piola/particles/ordering.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -39,7 +40,6 @@ TaylorBody::TaylorBody(Assembly const& assembly, std::size_t body, Options const
   X_ = part(set.X);
   kernel_volume_ = part(set.kernel_volume);
   if (!set.crack_side.empty()) crack_side_ = part(set.crack_side);
-  shuffle_ = current_shuffle();
   for (auto const& crack : set.cracks)
     if (crack.body == static_cast<int>(body)) cracks_.push_back(crack);
   state_.dimension = set.dimension;
@@ -57,7 +57,6 @@ TaylorBody::TaylorBody(Assembly const& assembly, std::size_t body, Options const
   else if (!assembly.initial_displacement.empty())
     weigh_displaced(assembly);
   place_initially(assembly);
-  shuffle_.moved = nullptr;
 }
 
 /// Particles start at the initial displacement, free of stress and with the given density: masses follow the cells.
@@ -176,7 +175,7 @@ void TaylorBody::order_slots(std::vector<Index> const& on_boundary) {
     local_of_[at(slot)] = i;
   };
   Index slot = 0;
-  for (std::size_t const k : shuffled_indices(inner.size(), shuffle_)) put(slot++, inner[k]);
+  for (Index const i : inner) put(slot++, i);
   slot = state_.boundary.first;
   for (Index const i : on_boundary) put(slot++, i);
   id_in_slot_.assign(local_of_.size(), SlotOrder::no_particle);
@@ -193,14 +192,6 @@ void TaylorBody::order_cells() {
                     body_.name, cells_.corner.size(), most));
   state_.virtual_count = cells_.count();
   state_.virtuals = {0, aligned(cells_.count())};
-  slot_of_cell_.resize(at(cells_.count()));
-  // Lanes without a cell repeat the last one.
-  cell_in_slot_.assign(at(state_.virtuals.last), cells_.count() - 1);
-  Index slot = 0;
-  for (std::size_t const cell : shuffled_indices(slot_of_cell_.size(), shuffle_)) {
-    cell_in_slot_[at(slot)] = static_cast<Index>(cell);
-    slot_of_cell_[cell] = slot++;
-  }
 }
 
 void TaylorBody::arrange(Points const& x_of_cells) {
@@ -215,7 +206,7 @@ void TaylorBody::arrange(Points const& x_of_cells) {
   for (Index c = 0; c < n; ++c)
     std::ranges::copy(cells_.of(order[at(c)]), sorted.corner.begin() + static_cast<std::ptrdiff_t>(c) * cells_.corners);
   cells_ = sorted;
-  order_slots(boundary_.arrange(surface_of(cells_, x_of_cells), x_of_cells, shuffle_));
+  order_slots(boundary_.arrange(surface_of(cells_, x_of_cells), x_of_cells));
   order_cells();
   int const stride = record_stride(D());
   auto const records = [&](Index slots) {
@@ -253,7 +244,7 @@ void TaylorBody::fill_cell_tables(Points const& x) {
   double factorial = 1;
   for (int c = 2; c <= D() && cells_.corners == D() + 1; ++c) factorial *= c;
   for (Index v = 0; v < state_.virtuals.last; ++v) {
-    Index const cell = cell_in_slot_[at(v)];
+    Index const cell = cell_in_slot(v);
     auto const corners = cells_.of(cell);
     double longest = 0;
     for (std::size_t a = 0; a < corners.size(); ++a) {
@@ -283,8 +274,7 @@ void TaylorBody::fill_cell_memory() {
   std::vector<Index> next(around_begin_.begin(), around_begin_.end() - 1);
   for (Index c = 0; c < cells_.count(); ++c)
     for (int k = 0; k < corners; ++k)
-      around_[at(next[at(slot_of_[at(cells_.of(c)[static_cast<std::size_t>(k)])])]++)] =
-          slot_of_cell_[at(c)] * corners + k;
+      around_[at(next[at(slot_of_[at(cells_.of(c)[static_cast<std::size_t>(k)])])]++)] = c * corners + k;
   state_.around = {around_begin_.data(), around_.data()};
   std::size_t const slots = at(state_.virtuals.last), D = at(this->D());
   int const patterns = D == 1 || corners == this->D() + 1 ? 0 : D == 2 ? 1 : 4;
@@ -500,8 +490,7 @@ std::size_t TaylorBody::bytes() const {
          sizeof(double) * (cell_across_.size() + cell_force_.size() + cell_gradient_.size() + cell_hourglass_.size()) +
          sizeof(Index) * (around_begin_.size() + around_.size()) +
          sizeof(double) * (reference_square_.size() + reference_quality_.size() + pattern_.size() + partial_.size()) +
-         sizeof(Index) * (slot_of_.size() + local_of_.size() + slot_of_cell_.size() + cell_in_slot_.size()) +
-         sizeof(std::int64_t) * id_in_slot_.size() +
+         sizeof(Index) * (slot_of_.size() + local_of_.size()) + sizeof(std::int64_t) * id_in_slot_.size() +
          sizeof(Index) * (corner_.size() + box_corner_.size() + box_of_.size() + cells_.corner.size());
 }
 

@@ -8,6 +8,7 @@
 #include "piola/math/tensor.hpp"
 #include "piola/mechanics/resultants.hpp"
 #include "piola/neighbours/mesh_cells.hpp"
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -99,11 +100,8 @@ class TaylorBody {
   Index worst_corner() const;  ///< a particle of the cell with the smallest volume
   std::size_t bytes() const;
   /// Communication pattern of the body; empty if not modelled: the exchange of estimates.
-  CommPattern comm_pattern() const;
   Index local_of(Index slot) const { return local_of_[at(slot)]; }
   Index virtual_particles() const { return state_.virtual_count; }
-  double mean_sources() const { return to_virtual_.mean_count(); }
-  double mean_virtual_sources() const { return to_real_.mean_count(); }
 
  private:
   static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -126,6 +124,8 @@ class TaylorBody {
   void fill_cell_tables(Points const& x);
   void fill_hourglass_tables();
   void fill_cell_memory();
+  /// Cells are numbered by slot; lanes without a cell repeat the last one.
+  Index cell_in_slot(Index slot) const { return std::min(slot, cells_.count() - 1); }
   double* cell_stress(Index cell) const;
   std::span<double> patterns_of(Index cell) const;
   void restore_cells(Snapshot const& snapshot);
@@ -169,8 +169,7 @@ class TaylorBody {
   Boundary boundary_;
   Cells cells_, boxes_;  ///< corners numbered within the body
   Points x_of_lists_, x_of_cells_, surface_positions_;
-  Shuffle shuffle_;  ///< tests shuffle tiles of interior particles, of surface particles, and of cells
-  std::vector<Index> slot_of_, local_of_, slot_of_cell_, cell_in_slot_;
+  std::vector<Index> slot_of_, local_of_;
   std::vector<std::int64_t> id_in_slot_;
   Memory real_, virtual_;
   Field across_{"OutOfPlaneStress", "Pa", 1, Role::evolved};

@@ -200,14 +200,11 @@ void Boundary::attach_tractions() {
     }
 }
 
-std::vector<Index> const& Boundary::arrange(Surface const& surface, Points const& x, Shuffle const& shuffle) {
+std::vector<Index> const& Boundary::arrange(Surface const& surface, Points const& x) {
   sort_facets(surface, X_);
   particles_.clear();
   for (std::size_t k = 0; k < X_.size(); ++k)
     if (!sides_[k].empty() || !held_[k].empty()) particles_.push_back(static_cast<Index>(k));
-  auto const ascending = particles_;
-  auto const numbers = shuffled_indices(particles_.size(), shuffle);
-  for (std::size_t k = 0; k < numbers.size(); ++k) particles_[k] = ascending[numbers[k]];
   turn(X_);
   for (auto& sides : sides_)
     for (auto& side : sides) side.reference_normal = side.normal;

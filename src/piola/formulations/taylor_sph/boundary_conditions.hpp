@@ -3,7 +3,6 @@
 #include "piola/formulations/assembly.hpp"
 #include "piola/formulations/taylor_sph/state.hpp"
 #include "piola/neighbours/mesh_cells.hpp"
-#include "piola/particles/ordering.hpp"
 #include <array>
 #include <functional>
 #include <optional>
@@ -21,7 +20,7 @@ class Boundary {
   /// Sets up the particles with prescribed values and returns them in increasing order, the order of items: those of
   /// the surface except the tips of cracks, and those of supports. Throws InputError if a traction is given without a
   /// surface.
-  std::vector<Index> const& arrange(Surface const& surface, Points const& x, Shuffle const& shuffle);
+  std::vector<Index> const& arrange(Surface const& surface, Points const& x);
 
   /// Before a step from `time` to time + dt. `x`: positions for the normals. `stress_now(k)`: the stress of the item's
   /// particle, used as the earlier prescribed value if there was none: at time 0 and after a release. Earlier

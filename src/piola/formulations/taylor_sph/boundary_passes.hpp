@@ -294,4 +294,4 @@ struct Impose {
   }
 };
 
-}  // namespace piola::taylor_sph::inline PIOLA_MACHINE
+}  // namespace piola::taylor_sph::inline PIOLA_BACKEND

@@ -203,4 +203,4 @@ struct PlaceVirtuals {
   }
 };
 
-}  // namespace piola::taylor_sph::inline PIOLA_MACHINE
+}  // namespace piola::taylor_sph::inline PIOLA_BACKEND

@@ -118,4 +118,4 @@ struct DampPatterns {
   }
 };
 
-}  // namespace piola::taylor_sph::inline PIOLA_MACHINE
+}  // namespace piola::taylor_sph::inline PIOLA_BACKEND

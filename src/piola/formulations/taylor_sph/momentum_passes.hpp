@@ -61,4 +61,4 @@ struct AddRigidMotion {
   }
 };
 
-}  // namespace piola::taylor_sph::inline PIOLA_MACHINE
+}  // namespace piola::taylor_sph::inline PIOLA_BACKEND

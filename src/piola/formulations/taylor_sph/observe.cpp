@@ -18,8 +18,8 @@ double stored_energy(TaylorBody const& body, SymMat<3> const& s) {
 }
 
 constexpr std::array<std::string_view, 13> offered{
-    "Displacement", "Position", "Velocity",   "Momentum", "Pressure", "CauchyStress", "Jacobian", "VonMisesStress",
-    "Density",      "Parting",  "Neighbours", "Body",     "Id"};
+    "Displacement", "Position",    "Velocity",   "Momentum", "Pressure", "CauchyStress", "Jacobian", "VonMisesStress",
+    "Density",      "StrainDrift", "Neighbours", "Body",     "Id"};
 
 }  // namespace
 
@@ -48,7 +48,7 @@ std::vector<FieldInfo> output_field_names() { return field_infos(offered); }
 void sample(TaylorBody const& body, int body_number, std::string_view field, std::span<double> values) {
   OutputField const& found = find_output_field(field, offered);
   std::vector<double> const strain_drift =
-      field == "Parting" ? body.strain_drift() : std::vector<double>(static_cast<std::size_t>(body.particles()));
+      field == "StrainDrift" ? body.strain_drift() : std::vector<double>(static_cast<std::size_t>(body.particles()));
   for (Index i = 0; i < body.particles(); ++i) {
     ParticleOutput p;
     p.id = static_cast<double>(body.body().first + i);

@@ -10,11 +10,11 @@ namespace piola::taylor_sph {
 namespace {
 
 constexpr std::array<std::string_view, 2> configuration_words{"updated", "fixed"};
-constexpr std::array<std::string_view, 3> exchange_words{"as_configuration", "adjoint", "estimates"};
+constexpr std::array<std::string_view, 3> exchange_words{"as_configuration", "adjoint", "kernel_sums"};
 constexpr std::array<std::string_view, 5> assumption_words{"as_dimension", "plane_strain", "plane_stress",
                                                            "uniaxial_stress", "uniaxial_strain"};
 constexpr std::array<std::string_view, 3> virtual_words{"as_configuration", "delaunay", "lattice_cells"};
-constexpr std::array<std::string_view, 2> gradient_words{"linear_exact", "printed"};
+constexpr std::array<std::string_view, 2> gradient_words{"linear_exact", "published"};
 
 constexpr std::array<std::string_view, 2> switch_words{"on", "off"};
 
@@ -25,8 +25,8 @@ constexpr std::array choices{
            configuration_words},
     Choice{"exchange",
            "between real and virtual particles; adjoint: forces by the transpose of the cells' gradients, momenta and "
-           "energy balance on any set; estimates: kernel sums as in the paper; as_configuration: updated: adjoint, "
-           "fixed: estimates",
+           "energy balance on any set; kernel_sums: as in the paper; as_configuration: updated: adjoint, fixed: "
+           "kernel_sums",
            exchange_words},
     Choice{"assumption",
            "about the directions that a body does not have; as_dimension: 1D uniaxial_stress (a bar), 2D plane_strain",
@@ -35,35 +35,34 @@ constexpr std::array choices{
         "virtual_particles",
         "where values of half time live; delaunay: centroids of triangles (tetrahedra, in 1D midpoints), with "
         "alternating diagonals on a lattice; lattice_cells: the middle of each box of the lattice; as_configuration: "
-        "delaunay, but with estimates in the updated configuration lattice_cells where the body is a whole box of "
+        "delaunay, but with kernel_sums in the updated configuration lattice_cells where the body is a whole box of "
         "particles",
         virtual_words},
     Choice{"gradient",
-           "of estimates; linear_exact: about the centroid of the weights, linear fields exactly on any set; printed: "
-           "eqs. "
-           "19, 20",
+           "of kernel_sums; linear_exact: about the centroid of the weights, linear fields exactly on any set; "
+           "published: eqs. 19, 20",
            gradient_words},
-    Choice{"kernel", "smoothing kernel of estimates, support 2h", LaneKernels::names},
+    Choice{"kernel", "smoothing kernel of kernel_sums, support 2h", LaneKernels::names},
     Choice{"momentum_projection",
-           "estimates in the updated configuration, bodies without supports: linear and angular momentum change by the "
-           "loads alone, by a "
-           "rigid motion added after each step",
+           "kernel_sums in the updated configuration, bodies without supports: linear and angular momentum change by "
+           "the loads alone, by a rigid motion added after each step",
            switch_words}};
 
 constexpr std::array parameters{
     Parameter{"smoothing_length", "1",
-              "h of estimates in spacings of real particles; it follows the cells as they deform",
+              "h of kernel_sums in spacings of real particles; it follows the cells as they deform",
               Interval{0.3, 3, false, false}, no_default,
               "1D 0.6; fixed: simplices 0.9, lattice cells 0.6; updated: triangles 1.1, else 0.9"},
     Parameter{"hourglass_filter", "1",
               "share of the checkerboard pattern of velocity that each step takes away, as Flanagan and Belytschko's "
               "hourglass vectors measure it; 0: none",
-              Interval{0, 1, false, false}, no_default, "estimates: updated 0.3, else 0; 1D 0"},
-    Parameter{"cell_memory", "1",
-              "adjoint: share of a cell's own stress in what acts on its corners, the rest is the mean of theirs; 0: "
-              "virtual particles live half a step as in the paper; 1: none of the paper's damping, triangles of "
-              "constant strain",
-              Interval{0, 1, false, false}, 0.2},
+              Interval{0, 1, false, false}, no_default, "kernel_sums: updated 0.3, else 0; 1D 0"},
+    Parameter{
+        "stress_retention", "1",
+        "adjoint: fraction of a cell's own stress in what acts on its corners, the rest is the mean of theirs; 0: "
+        "virtual particles live half a step as in the paper; 1: none of the paper's damping, triangles of "
+        "constant strain",
+        Interval{0, 1, false, false}, 0.2},
     Parameter{"hourglass_stiffness", "1",
               "adjoint, lattice_cells: elastic resistance to the checkerboard pattern of the boxes, in shares of the "
               "wave modulus",
@@ -72,7 +71,7 @@ constexpr std::array parameters{
 constexpr std::array<std::string_view, 1> usable_laws{"linear_elastic"};
 
 constexpr std::array diagnostics{DiagnosticInfo{"list_updates", "1"}, DiagnosticInfo{"triangulations", "1"},
-                                 DiagnosticInfo{"centred_energy", "J"}, DiagnosticInfo{"parting", "1"}};
+                                 DiagnosticInfo{"centred_energy", "J"}, DiagnosticInfo{"strain_drift", "1"}};
 
 std::string_view word(FormulationSpec const& spec, std::string_view name) { return word_of(spec, choices, name); }
 
@@ -90,7 +89,6 @@ FormulationInfo info() {
   info.cracks = true;
   info.mirrors = false;
   info.can_be_coupled = true;
-  info.on_ranks = true;
   info.off_lattice = false;  // its hourglass control needs boxes of a lattice
   return info;
 }
@@ -115,7 +113,7 @@ Options read_options(FormulationSpec const& spec, int dimension, double cfl, boo
                                                    : of_simplices);
   o.conserve = word(spec, "momentum_projection") == "on" && !o.adjoint;
   o.hourglass = o.adjoint ? 0 : number_of(spec, "hourglass_filter", o.moving && dimension > 1 ? 0.3 : 0);
-  o.memory = number_of(spec, "cell_memory", 0.2);
+  o.memory = number_of(spec, "stress_retention", 0.2);
   o.hourglass_stiffness = o.lattice_cells ? number_of(spec, "hourglass_stiffness", 0.05) : 0;
   o.cfl = std::isnan(cfl) ? (o.adjoint || o.moving || (dimension > 1 && !o.lattice_cells) ? 0.9 : 1.0) : cfl;
   if (o.cfl > 1)

@@ -89,4 +89,4 @@ PIOLA_FN T volume_after(T const& volume, T const& rate, double dt) {
   return volume * (1.0 + 0.5 * dt * rate) / (1.0 - 0.5 * dt * rate);
 }
 
-}  // namespace piola::taylor_sph::inline PIOLA_MACHINE
+}  // namespace piola::taylor_sph::inline PIOLA_BACKEND

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
+#include <numeric>
 
 namespace piola::taylor_sph {
 namespace {
@@ -170,17 +171,19 @@ void TaylorBody::make_lists(Points const& x) {
   std::vector<int> least(X_.size(), D() + 1);
   for (Index i = 0; i < particles(); ++i)
     if (boundary_.sides(i) == 1) least[at(i)] = D();
-  auto cell_in_slot = cell_in_slot_;
-  std::fill(cell_in_slot.begin() + state_.virtual_count, cell_in_slot.end(), -1);
+  std::vector<Index> slot_of_cell(at(state_.virtual_count));
+  std::iota(slot_of_cell.begin(), slot_of_cell.end(), 0);
+  std::vector<Index> in_slot = slot_of_cell;
+  in_slot.resize(at(state_.virtuals.last), -1);
   std::function<bool(Index, Index)> real_sees, cell_sees;
   if (!cracks_.empty()) {
     real_sees = [&](Index particle, Index cell) { return sees(particle, cell); };
     cell_sees = [&](Index cell, Index particle) { return sees(particle, cell); };
   }
   double const reach = state_.k.moving ? skin : 0;
-  to_virtual_.build({middle, x, cell_h, 2, reach, corners, cell_in_slot, slot_of_, cell_sees}, backend_->lanes,
+  to_virtual_.build({middle, x, cell_h, 2, reach, corners, in_slot, slot_of_, cell_sees}, backend_->lanes,
                     state_.boundary.last);
-  to_real_.build({x, middle, real_h, 2, reach, least, local_of_, slot_of_cell_, real_sees}, backend_->lanes,
+  to_real_.build({x, middle, real_h, 2, reach, least, local_of_, slot_of_cell, real_sees}, backend_->lanes,
                  state_.virtuals.last);
   state_.to_virtual = to_virtual_.table();
   state_.to_real = to_real_.table();
@@ -193,7 +196,7 @@ void TaylorBody::note_distances(Points const& x) {
   Index const pairs = cells_.corners * (cells_.corners - 1) / 2;
   reference_square_.assign(at(state_.virtuals.last) * pairs, 0);
   for (Index v = 0; v < state_.virtuals.last; ++v) {
-    auto const corners = cells_.of(cell_in_slot_[at(v)]);
+    auto const corners = cells_.of(cell_in_slot(v));
     Index pair = 0;
     for (std::size_t a = 0; a < corners.size(); ++a)
       for (std::size_t b = a + 1; b < corners.size(); ++b, ++pair) {
@@ -289,7 +292,7 @@ void TaylorBody::follow_motion() {
   try {
     renew_lists();
   } catch (InputError const& error) {  // at the start this is an input error, later a body that came apart
-    lost_ = {worst_corner(), fmt::format("is in a body whose cells or lists cannot be made anew ({})", error.what())};
+    lost_ = {worst_corner(), fmt::format("is in a body whose cells or lists cannot be rebuilt ({})", error.what())};
   }
 }
 
@@ -358,7 +361,7 @@ Snapshot TaylorBody::snapshot() const {
   for (Index c = 0; c < cells_.count() && options_.adjoint; ++c) {
     double const* const stress = cell_stress(c);
     s.cell_stress.insert(s.cell_stress.end(), stress, stress + n);
-    s.cell_across.push_back(cell_across_[at(slot_of_cell_[at(c)])]);
+    s.cell_across.push_back(cell_across_[at(c)]);
     auto const patterns = patterns_of(c);
     s.cell_hourglass.insert(s.cell_hourglass.end(), patterns.begin(), patterns.end());
   }
@@ -376,12 +379,12 @@ Snapshot TaylorBody::snapshot() const {
 
 /// Pointer to the stress of a cell inside its record.
 double* TaylorBody::cell_stress(Index cell) const {
-  return state_.virtual_ + static_cast<std::ptrdiff_t>(slot_of_cell_[at(cell)]) * record_stride(D()) + stress_place();
+  return state_.virtual_ + std::ptrdiff_t{cell} * record_stride(D()) + stress_place();
 }
 
 std::span<double> TaylorBody::patterns_of(Index cell) const {
   auto const size = static_cast<std::size_t>(state_.memory.patterns * D());
-  return {state_.memory.hourglass + static_cast<std::size_t>(slot_of_cell_[at(cell)]) * size, size};
+  return {state_.memory.hourglass + at(cell) * size, size};
 }
 
 /// New cells take the mean stress of their corners.
@@ -398,7 +401,7 @@ void TaylorBody::restore_cells(Snapshot const& s) {
     }
     double mean = 0;
     for (Index const corner : cells_.of(c)) mean += across_.at(slot_of_[at(corner)]) / cells_.corners;
-    cell_across_[at(slot_of_cell_[at(c)])] = known ? s.cell_across[at(c)] : mean;
+    cell_across_[at(c)] = known ? s.cell_across[at(c)] : mean;
     auto const patterns = patterns_of(c);
     if (s.cell_hourglass.empty()) continue;
     std::copy_n(s.cell_hourglass.begin() + static_cast<std::ptrdiff_t>(at(c) * patterns.size()), patterns.size(),

@@ -122,7 +122,7 @@ class Solver final : public Formulation {
     d.more = {{"list_updates", more[1]},
               {"triangulations", more[2]},
               {"centred_energy", d.total_energy() - more[3]},
-              {"parting", more[4]}};
+              {"strain_drift", more[4]}};
     return d;
   }
 
@@ -136,7 +136,6 @@ class Solver final : public Formulation {
   void load(StateReader& reader) override;
 
   int stages_per_step() const override { return 2; }
-  std::optional<CommPattern> comm_pattern(std::size_t body) const override { return bodies_[body]->comm_pattern(); }
   std::vector<std::pair<std::string, double>> timings() const override {
     SetupSeconds sum;
     for (auto const& body : bodies_) {

@@ -221,4 +221,4 @@ class Step {
   Law const& law_;
 };
 
-}  // namespace piola::taylor_sph::inline PIOLA_MACHINE
+}  // namespace piola::taylor_sph::inline PIOLA_BACKEND

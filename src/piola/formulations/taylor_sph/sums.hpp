@@ -122,4 +122,4 @@ PIOLA_FN Estimate<D, V> estimate(KernelSums<D, V> const& sums, GradientForm form
   return e;
 }
 
-}  // namespace piola::taylor_sph::inline PIOLA_MACHINE
+}  // namespace piola::taylor_sph::inline PIOLA_BACKEND

@@ -11,14 +11,14 @@ bool is_displaced(Assembly const& assembly, Body const& body) {
                                        [](auto const& u) { return u != std::array<double, 3>{}; });
 }
 
-bool uses_estimates(BodyWarnings const& setting_warnings) {
-  return setting_warnings.has_setting("exchange", "estimates") ||
+bool uses_kernel_sums(BodyWarnings const& setting_warnings) {
+  return setting_warnings.has_setting("exchange", "kernel_sums") ||
          (setting_warnings.has_setting("configuration", "fixed") &&
           !setting_warnings.has_setting("exchange", "adjoint"));
 }
 
-void doubt_estimates(BodyWarnings& setting_warnings, bool line) {
-  for (char const* name : {"cell_memory", "hourglass_stiffness"})
+void doubt_kernel_sums(BodyWarnings& setting_warnings, bool line) {
+  for (char const* name : {"stress_retention", "hourglass_stiffness"})
     if (setting_warnings.has_setting(name)) setting_warnings.ignored(name, "it belongs to exchange = \"adjoint\"");
   if (line && number_of(setting_warnings.spec(), "hourglass_filter", 0) > 0)
     setting_warnings.ignored("hourglass_filter", "a row of particles has no hourglass pattern");
@@ -31,7 +31,7 @@ void doubt_estimates(BodyWarnings& setting_warnings, bool line) {
 
 void doubt_adjoint(BodyWarnings& setting_warnings) {
   for (char const* name : {"gradient", "kernel", "smoothing_length", "hourglass_filter", "momentum_projection"})
-    if (setting_warnings.has_setting(name)) setting_warnings.ignored(name, "it belongs to exchange = \"estimates\"");
+    if (setting_warnings.has_setting(name)) setting_warnings.ignored(name, "it belongs to exchange = \"kernel_sums\"");
   if (setting_warnings.has_setting("hourglass_stiffness") &&
       !setting_warnings.has_setting("virtual_particles", "lattice_cells"))
     setting_warnings.ignored("hourglass_stiffness", "it acts with virtual_particles = \"lattice_cells\"");
@@ -43,8 +43,8 @@ void setting_warning(Assembly const& assembly, std::size_t body, BodyWarnings& s
   bool const line = assembly.particles.dimension == 1;
   if (line && setting_warnings.has_setting("virtual_particles", "lattice_cells"))
     setting_warnings.ignored("virtual_particles", "in one dimension they are the midpoints");
-  if (uses_estimates(setting_warnings))
-    doubt_estimates(setting_warnings, line);
+  if (uses_kernel_sums(setting_warnings))
+    doubt_kernel_sums(setting_warnings, line);
   else
     doubt_adjoint(setting_warnings);
   if (is_displaced(assembly, assembly.particles.bodies[body]))

@@ -44,4 +44,4 @@ class JohnsonCookDamage {
   Heat heat_;
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -28,4 +28,4 @@ class ElasticEos {
   double rho0_, kappa_;
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -64,4 +64,4 @@ class JwlEos {
   double rho0_, a_, b_, r1_, r2_, omega_;
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

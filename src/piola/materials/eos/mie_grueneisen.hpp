@@ -83,4 +83,4 @@ class MieGrueneisen {
   Curve<double> end_{};
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

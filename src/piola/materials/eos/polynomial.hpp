@@ -47,4 +47,4 @@ class PolynomialEos {
   double rho0_, c1_, c2_, c3_, c4_, c5_, c6_;
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -30,4 +30,4 @@ class StiffenedGas {
   double rho0_, c0_squared_, g_;
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -98,4 +98,4 @@ struct EosValues {
         front(v[19]) {}
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

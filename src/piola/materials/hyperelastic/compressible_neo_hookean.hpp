@@ -60,4 +60,4 @@ struct CompressibleNeoHookean : ElasticConstants {
   }
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

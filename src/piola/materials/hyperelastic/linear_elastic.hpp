@@ -59,4 +59,4 @@ struct LinearElastic : VolumetricSplit<LinearElastic> {
   }
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -20,13 +20,14 @@ struct MooneyRivlin : VolumetricSplit<MooneyRivlin> {
   static constexpr bool small_strain = false;
   static constexpr std::array parameters{
       ElasticConstants::parameters[0], ElasticConstants::parameters[1], ElasticConstants::parameters[2],
-      Parameter{"share", "1", "part of the shear modulus that F:F carries, the rest is of H:H; 1: neo-Hookean",
-                Interval{0, 1}, 0.0}};
+      Parameter{"c10_fraction", "1",
+                "fraction of the shear modulus that F:F carries, the rest is of H:H; 1: neo-Hookean", Interval{0, 1},
+                0.0}};
 
   double zeta;  ///< coefficient of F:F [Pa]
   double xi;    ///< coefficient of (H:H)^(3/2) [Pa]
 
-  /// values: density, Young's modulus, Poisson's ratio, share.
+  /// values: density, Young's modulus, Poisson's ratio, c10_fraction.
   PIOLA_FN explicit MooneyRivlin(double const* values)
       : VolumetricSplit(values), zeta(0.5 * values[3] * mu), xi((1 - values[3]) * mu / three_root_three) {}
 
@@ -59,4 +60,4 @@ struct MooneyRivlin : VolumetricSplit<MooneyRivlin> {
   static constexpr double three_root_three = 5.196152422706632;
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

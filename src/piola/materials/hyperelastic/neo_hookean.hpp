@@ -41,4 +41,4 @@ struct NeoHookean : VolumetricSplit<NeoHookean> {
   }
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -62,4 +62,4 @@ struct SaintVenantKirchhoff : ElasticConstants {
   }
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -68,4 +68,4 @@ struct VolumetricSplit : ElasticConstants {
   PIOLA_FN Law const& law() const { return static_cast<Law const&>(*this); }
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -59,4 +59,4 @@ struct Heat {
   PIOLA_FN double log_rate(double rate) const { return rate > reference_rate ? std::log(rate / reference_rate) : 0; }
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

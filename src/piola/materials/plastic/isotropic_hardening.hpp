@@ -36,4 +36,4 @@ class IsotropicHardening {
   double yield_, modulus_;
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -88,4 +88,4 @@ class JohnsonCook {
   Heat heat_;
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

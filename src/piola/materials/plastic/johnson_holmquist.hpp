@@ -107,4 +107,4 @@ class JohnsonHolmquist {
   double A_, N_, B_, M_, most_, C_, D1_, D2_, beta_, rate0_;
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -19,4 +19,4 @@ struct NoPlasticity {
   PIOLA_FN static double increment(double, double, FlowState const&, double, double = 0) { return 0; }
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

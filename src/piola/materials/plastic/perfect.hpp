@@ -32,4 +32,4 @@ class PerfectPlasticity {
   double yield_;
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

@@ -84,4 +84,4 @@ class SteinbergGuinan {
   double y0_, beta_, n_, earlier_, most_, b_, h_, melting_, a_, gamma_, reference_;
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND

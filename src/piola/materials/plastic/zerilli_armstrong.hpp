@@ -63,4 +63,4 @@ class ZerilliArmstrong {
   double c0_, c1_, c2_, c3_, c4_, c5_, n_;
 };
 
-}  // namespace piola::inline PIOLA_MACHINE
+}  // namespace piola::inline PIOLA_BACKEND
