@@ -46,8 +46,8 @@ constexpr std::array body_keys{
             quantity,
             "1",
             {0, 2, true, false},
-            "nodal, jst_sph with verlet: none, the step is measured; jst_sph else 0.3; taylor_sph: 0.9, exact lattices "
-            "1; adaptle: 0.3",
+            "nodal, jst_sph with scheme = \"filtered\": none, the step is measured; jst_sph else 0.3; taylor_sph: 0.9, "
+            "exact lattices 1; adaptle: 0.3",
             "step as a fraction of spacing / wave speed",
             {}},
     KeyInfo{"run",

@@ -26,9 +26,9 @@ struct KickAndDrift {
 };
 
 /// F^(n+1) = F^n + dt GRAD v^(n+1/2), its wave speed and volume ratio; and the argument of the second Laplacian,
-///   w = eps4 c h^3 V L v',  L v' = L v + spin cross L x,  v' = v + spin cross (x - centre) + push: the motion without its
-/// rigid part; D2 = eps2 c h L v', written to `rate`. Records the first particle whose new F is inverted or not a
-/// number.
+///   w = eps4 c h^3 V L v',  L v' = L v + spin cross L x
+/// for the motion without its rigid part, v' = v + spin cross (x - centre) + push; and D2 = eps2 c h L v', written to
+/// `rate`. Records the first particle whose new F is inverted or not a number.
 template <int D>
 struct Deform {
   double dt;
