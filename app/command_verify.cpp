@@ -10,6 +10,7 @@
 #include "piola/report/verification_plots.hpp"
 #include "piola/verification/verification_report.hpp"
 #include "commands.hpp"
+#include "run_support.hpp"
 #include "signals.hpp"
 #include "streams.hpp"
 #include <algorithm>
@@ -30,19 +31,6 @@ struct VerifyArguments {
   std::string cases, out, markdown, report;
   bool short_only = false, json = false;
 };
-
-/// The cases lie beside the program's sources (cases/ in a folder above it) or where it is installed
-/// (share/piola/cases).
-fs::path find_case_folder() {
-  std::error_code error;
-  fs::path const program = fs::read_symlink("/proc/self/exe", error);
-  for (fs::path at = program.parent_path(); !error && at.has_relative_path(); at = at.parent_path()) {
-    for (char const* place : {"share/piola/cases", "cases"}) {
-      if (fs::is_directory(at / place)) return at / place;
-    }
-  }
-  return "cases";
-}
 
 /// A new folder with a unique, unpredictable name, removed by the destructor.
 class TemporaryFolder {
@@ -120,7 +108,7 @@ int run_verify(VerifyArguments const& options) {
     all.insert(all.end(), own.begin(), own.end());
     return all;
   };
-  VerifyOptions const what{.cases = options.cases.empty() ? find_case_folder() : fs::path(options.cases),
+  VerifyOptions const what{.cases = options.cases.empty() ? data_folder("cases", "cases") : fs::path(options.cases),
                            .names = options.names,
                            .short_only = options.short_only,
                            .out = scratch ? scratch->path() : fs::path(options.out),

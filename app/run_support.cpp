@@ -162,6 +162,16 @@ void refuse_link_loop(std::filesystem::path const& path, std::error_code const& 
                   path.string()));
 }
 
+std::filesystem::path data_folder(std::string const& name, std::string const& source) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  fs::path const program = fs::read_symlink("/proc/self/exe", error);
+  for (fs::path at = program.parent_path(); !error && at.has_relative_path(); at = at.parent_path())
+    for (fs::path const& place : {fs::path("share/piola") / name, fs::path(source)})
+      if (fs::is_directory(at / place)) return at / place;
+  return source;
+}
+
 std::filesystem::path case_file(std::filesystem::path const& given) {
   namespace fs = std::filesystem;
   std::error_code error;

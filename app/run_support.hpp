@@ -57,6 +57,9 @@ int run_and_report(Simulation& simulation, RunOptions options, bool quiet);
 /// Throws InputError if an error reports a loop of symbolic links at a path.
 void refuse_link_loop(std::filesystem::path const& path, std::error_code const& error);
 
+/// A folder that came with the program: share/piola/NAME where it is installed, or `source` in the tree of its sources.
+std::filesystem::path data_folder(std::string const& name, std::string const& source);
+
 /// case.toml itself, or the one in a folder. Throws InputError if there is none.
 std::filesystem::path case_file(std::filesystem::path const& given);
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Draws what `piola bench --only accuracy --json` has measured: error against processor time, one picture as SVG.
+"""Draws what `piola bench --only accuracy --json` has measured, error against processor time, as one SVG; prints it as
+the two tables of bench/accuracy/README.md.
 
 Usage: bench/plot_accuracy.py accuracy.json accuracy.svg [--finite-elements runs.csv]
 
@@ -14,14 +15,16 @@ import sys
 
 WIDTH, HEIGHT, MARGIN = 420, 300, 56
 ERRORS = (1e-4, 0.5)
+PRICES = ((0.03, "3 %"), (0.01, "1 %"), (0.003, "0.3 %"))
 COLOURS = {"nodal": "#0072b2", "jst_sph": "#d55e00", "jst_sph paper": "#999999", "finite elements": "#009e73"}
 
 
 def read(arguments):
-    """Points {(problem, nu): {scheme: [(cpu, |error|, across)]}}."""
+    """Points {(problem, nu): {scheme: [(cpu, |error|, across)]}}, after their tables."""
     panels = {}
     with open(arguments.measured, encoding="utf-8") as file:
         rows = json.load(file)["accuracy"]
+    print(tables(rows))
     references = {(row["problem"], row["poissons_ratio"]): row["value"] / (1 + row["error"])
                   for row in rows if "error" in row}
     if arguments.finite_elements:
@@ -38,6 +41,34 @@ def read(arguments):
         panel.setdefault(row["formulation"], []).append(
             (row["cpu_seconds"], max(abs(row["error"]), ERRORS[0]), row["across"]))
     return panels
+
+
+def price(runs, error):
+    """Processor time, and particles across, from which on all finer runs stay within an error."""
+    found = "-"
+    for row in runs:
+        within = abs(row.get("error", math.inf)) <= error
+        if not within:
+            found = "-"
+        elif found == "-":
+            found = f"{row['cpu_seconds']:.2g} ({row['across']})"
+    return found
+
+
+def tables(rows):
+    groups = {}
+    for row in rows:
+        groups.setdefault((row["problem"], row["poissons_ratio"], row["formulation"]), []).append(row)
+    lines = ["| | nu | | " + " | ".join(name for _, name in PRICES) + " |", "|---" * (3 + len(PRICES)) + "|"]
+    for key, runs in groups.items():
+        lines.append("| " + " | ".join([*map(str, key), *(price(runs, error) for error, _ in PRICES)]) + " |")
+    lines += ["", "| | nu | | across | particles | steps | value | error | set-up s | total s |", "|---" * 10 + "|"]
+    for row in rows:
+        result = [f"{row['value']:.4g}", f"{100 * row['error']:+.2f} %"] if "error" in row else [row["failure"], ""]
+        lines.append("| " + " | ".join([row["problem"], str(row["poissons_ratio"]), row["formulation"],
+                                        *(str(row[name]) for name in ("across", "particles", "steps")), *result,
+                                        f"{row['set_up_cpu_seconds']:.3f}", f"{row['cpu_seconds']:.3f}"]) + " |")
+    return "\n".join(lines)
 
 
 class Panel:

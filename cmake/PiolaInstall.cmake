@@ -23,6 +23,8 @@ if(TARGET piola_app)
 endif()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/cases" DESTINATION "${CMAKE_INSTALL_DATADIR}/piola" COMPONENT program
         PATTERN "*.py" EXCLUDE PATTERN "make_meshes" EXCLUDE)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/bench/cases/" DESTINATION "${CMAKE_INSTALL_DATADIR}/piola/bench"
+        COMPONENT program)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/user" "${PROJECT_SOURCE_DIR}/docs/theory"
         DESTINATION "${_doc}/piola" COMPONENT program FILES_MATCHING PATTERN "*.md")
 

@@ -7,7 +7,8 @@ sed 's/^threads = 1/threads = 1\nmachine = "scalar"/; s/"jst_sph"/"nodal", least
 told='old.toml:5:1: "machine" is now "instruction_set"'
 expect 0 "$told" "$program" check old.toml
 expect 0 '"least_mass" is now "min_mass_ratio"' "$program" check old.toml
-expect 0 '--set run.machine=scalar: "machine" is now "instruction_set"' "$program" check bar.toml --set run.machine=scalar
+expect 0 '--set run.machine=scalar: "machine" is now "instruction_set"' \
+  "$program" check bar.toml --set run.machine=scalar
 sed 's/^machine/instruction_set = "auto"\nmachine/' old.toml >both.toml
 expect 2 'both.toml:6:1: "machine" is now "instruction_set", and both are given' "$program" check both.toml
 expect 0 "warning: $told" "$program" run old.toml --out old
@@ -24,7 +25,8 @@ for text in "run --help" "describe man-page" "describe completion" "describe cas
   # shellcheck disable=SC2086
   "$program" $text >text.txt 2>&1
   check test -s text.txt
-  check test -z "$(grep -E -- '--machine|`machine`|strangers|parting|least_mass|cell_memory|tether|printed' text.txt)"
+  old=$(grep -E -- '--machine|`machine`|strangers|parting|least_mass|cell_memory|tether|(of|,) printed' text.txt)
+  check test -z "$old"
 done
 expect 2 'there is no option "--machin"' "$program" run bar.toml --machin scalar
 expect 2 'did you mean "--instruction-set"' "$program" run bar.toml --instruction-sett scalar
@@ -37,5 +39,4 @@ expect 0 "frames in" "$program" report old --fields LeastJacobian
 sed -i 's/cell_jacobian_min/least_jacobian/' old/history.csv
 expect 0 "1 curve drawn" "$program" plot old cell_jacobian_min
 expect 0 "1 curve drawn" "$program" plot old least_jacobian
-expect 0 "cell_jacobian_min_final_value" "$program" converge old.toml --column least_jacobian --factors 1 2 --out c
 finish

@@ -17,6 +17,13 @@ TEST(InstructionSets, ThatEveryProcessorHasAreUsable) {
 
 TEST(InstructionSets, ContainEachOther) { EXPECT_TRUE(!processor_can_run("v4") || processor_can_run("v3")); }
 
+TEST(InstructionSets, OfThisProgramAreListedBestFirst) {
+  auto const usable = usable_backends();
+  ASSERT_FALSE(usable.empty());
+  for (std::string const& name : usable) EXPECT_TRUE(processor_can_run(name));
+  EXPECT_TRUE(backend_text("auto").starts_with(usable.front() + " of a processor with "));
+}
+
 struct Fake {
   char const* name;
 };

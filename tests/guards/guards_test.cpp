@@ -238,7 +238,7 @@ Outcome run_under_load(Expression const& pressure, std::function<double(double)>
   load.name = "push";
   load.body = of.spec.bodies[0].name;
   load.kind = LoadSpec::Kind::pressure;
-  load.follows = true;
+  load.follower = true;
   load.value[0] = pressure;
   TemporaryFolder const folder;
   return run(of, folder / "r");

@@ -101,11 +101,13 @@ TEST(RenamedKeys, OldSpellingsAreReadAsTheNewOnesAndReported) {
 }
 
 TEST(RenamedKeys, AreReportedAtTheStartOfARun) {
-  std::string const text = with(spellings[0], "machine");
-  EXPECT_EQ(build(read_case_text(text, "case.toml")).warnings,
-            std::vector<std::string>{"case.toml:4:1: " + advice("machine", "instruction_set")});
-  EXPECT_EQ(build(read_case_text(block({"", "", "", ""}), "case.toml", {"run.machine=scalar"})).warnings,
-            std::vector<std::string>{"--set run.machine=scalar: " + advice("machine", "instruction_set")});
+  auto const reported = [](CaseSpec const& spec, std::string const& place) {
+    auto const all = build(spec).warnings;
+    return std::count(all.begin(), all.end(), place + ": " + advice("machine", "instruction_set")) == 1;
+  };
+  EXPECT_TRUE(reported(read_case_text(with(spellings[0], "machine"), "case.toml"), "case.toml:4:1"));
+  EXPECT_TRUE(reported(read_case_text(block({"", "", "", ""}), "case.toml", {"run.machine=scalar"}),
+                       "--set run.machine=scalar"));
 }
 
 TEST(RenamedKeys, BothSpellingsAreRefused) {

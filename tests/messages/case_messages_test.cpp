@@ -134,7 +134,7 @@ TEST(CaseMessages, AnEmptyBodyIsReported) {
 TEST(CaseMessages, ProbesAndQuantitiesMustFitTogether) {
   EXPECT_EQ(message_of(sample_with("\"pressure\"]", "\"presure\"]")),
             "case.toml:22:33: probe.quantities[1] is \"presure\" (allowed: pressure, damage, temperature, "
-            "density, cell_pressure, strain_drift, slip, momentum_x and 56 more) - did you mean \"pressure\"?");
+            "density, cell_pressure, slip, momentum_x, momentum_y and 56 more) - did you mean \"pressure\"?");
   EXPECT_EQ(
       message_of(sample_case() + "[[quantity]]\nname = \"q\"\ncolumn = \"tip.presure\"\n"),
       "case.toml:25:10: quantity.column is \"tip.presure\" (allowed: tip.pressure, time, total_energy, pressure_min, "

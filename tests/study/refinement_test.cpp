@@ -80,6 +80,7 @@ TEST(Refinement, AddsColumnsToTheQuantities) {
   EXPECT_EQ(spec.quantities[2].name, "total_energy_minimum");
   EXPECT_EQ(spec.quantities[2].take, QuantitySpec::Statistic::minimum);
   EXPECT_THROW(read_case(file, {quantity_setting(file, {}, {"strain_energie"})}), InputError);
+  EXPECT_NE(quantity_setting(file, {}, {"tie_heat"}).find("\"tie_dissipation_final_value\""), std::string::npos);
 }
 
 }  // namespace

@@ -1,294 +1,247 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/bench/bench.hpp"
 #include "piola/base/errors.hpp"
-#include "piola/bench/bench_columns.hpp"
-#include "piola/bench/bench_support.hpp"
+#include "piola/bench/bench_files.hpp"
 #include "piola/exec/backend_registry.hpp"
-#include "piola/exec/memory.hpp"
-#include "piola/formulations/jst_sph/state.hpp"
-#include "piola/formulations/make_formulation.hpp"
-#include "piola/geometry/primitives.hpp"
-#include "piola/setup/packed_bodies.hpp"
+#include "piola/exec/cpu_time.hpp"
+#include "piola/exec/threads.hpp"
+#include "piola/input/read_case.hpp"
+#include "piola/simulation/build.hpp"
+#include "piola/study/refinement.hpp"
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <fmt/format.h>
-#include <limits>
-#include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
+#include <numeric>
+#include <optional>
 
 namespace piola {
 namespace {
 
-// Counted by hand from passes.hpp, D = 3, literal biharmonic, regular lattice; bench/README.md has the count.
-constexpr double operations_per_pair = 38;
-constexpr double doubles_per_stage = 99;
+using Parts = std::vector<std::pair<std::string, double>>;
 
-/// A free body about (1/2, 1/2, 1/2) that turns slowly.
-Assembly spinning(ShapeSpec const& shape, std::string const& scheme, std::string const& backend) {
-  Assembly a;
-  fill(shape, "body", a.particles);
-  a.materials = {rubber()};
-  a.formulations = {FormulationSpec{"jst_sph", {}, {{"scheme", scheme}}}};
-  for (auto const& X : a.particles.X) a.initial_velocity.push_back({-5 * (X[1] - 0.5), 5 * (X[0] - 0.5), 0});
-  a.backend = backend;
-  return a;
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-Assembly spinning_cube(int n, std::string const& scheme, double jitter, std::string const& backend) {
-  ShapeSpec shape;
-  shape.particles = {n, n, n};
-  shape.max = {1, 1, 1};
-  shape.jitter = jitter;
-  return spinning(shape, scheme, backend);
-}
-
-/// A ball that is packed with n particles across, both supports one spacing.
-Assembly packed_ball(int n, std::string const& backend) {
-  constexpr double radius = 0.5;
-  ShapeSpec shape;
-  shape.kind = ShapeSpec::Kind::solid;
-  shape.arrangement = ShapeSpec::Arrangement::packed;
-  shape.solid = geometry::ball({{radius, radius, radius}}, radius, 0, 3);
-  shape.volume = 4 * std::numbers::pi / 3 * radius * radius * radius;
-  shape.spacing = 2 * radius / n;
-  shape.solid_particles = std::make_shared<SolidParticles>();
-  Assembly a = spinning(shape, "paper", backend);
-  a.formulations[0].numbers = {{"gradient_support", 1}, {"laplacian_support", 1}};
-  return a;
-}
-
-void measure_peaks(BenchReport& report, jst_sph::Backend const& backend) {
-  constexpr long rounds = 4'000'000;
-  constexpr int chains = 16;
-  constexpr Index n = 1 << 24;
-  Memory from(n), to(n);
-  double fma = std::numeric_limits<double>::infinity(), copied = fma;
-  volatile double keep = 0;
-  for (int k = 0; k < 5; ++k) {
-    double start = cpu_seconds();
-    keep = keep + backend.run_fma_chains(rounds);
-    fma = std::min(fma, cpu_seconds() - start);
-    start = cpu_seconds();
-    backend.copy(from.data(), to.data(), n);
-    copied = std::min(copied, cpu_seconds() - start);
-  }
-  report.fma_per_second = chains * static_cast<double>(rounds) / fma;
-  report.copy_bytes_per_second = 2.0 * sizeof(double) * n / copied;
-}
-
-void measure_column(BenchReport& report, BenchOptions const& options) {
-  struct Choice {
-    char const* name;
-    std::map<std::string, double, std::less<>> numbers;
-  };
-  Choice const choices[] = {{"default, one support 1.2", {{"gradient_support", 1.2}, {"laplacian_support", 1.2}}},
-                            {"default", {}}};
-  pin_to(1);
-  for (auto const& choice : choices) {
-    Assembly const assembly = column(Column::twisting, options.column_particles, rubber(),
-                                     FormulationSpec{"jst_sph", choice.numbers, {}}, report.backend);
-    report.column_particles = static_cast<long>(assembly.particles.size());
-    auto const formulation = make_formulation(assembly);
-    ColumnRow row{choice.name, mean_neighbours(*formulation, assembly.particles.size()), options.column_steps};
-    double const from = take_steps(*formulation, 0, options.column_settling), start = cpu_seconds();
-    double const to = take_steps(*formulation, from, row.steps);
-    row.cpu = cpu_seconds() - start;
-    row.simulated = to - from;
-    report.column.push_back(row);
-  }
-}
-
-void measure_variables(BenchReport& report, BenchOptions const& options) {
-  struct Choice {
-    char const *name, *variables, *filter;
-  };
-  constexpr Choice choices[] = {{"{p,F}, no filter", "pF", "off"},    {"{p,F}, filter", "pF", "on"},
-                                {"{p,F,J}, no filter", "pFJ", "off"}, {"{p,F,H,J}, no filter", "pFHJ", "off"},
-                                {"{p,F,J}, filter", "pFJ", "on"},     {"{p,F,H,J}, filter", "pFHJ", "on"}};
-  pin_to(1);
-  std::vector<std::unique_ptr<Formulation>> formulations;
-  std::vector<double> cpu(std::size(choices), std::numeric_limits<double>::infinity());
-  int const side = std::min(options.particles_per_side, 40);
-  for (auto const& choice : choices) {
-    Assembly assembly = spinning_cube(side, "filtered", 0, report.backend);
-    assembly.formulations[0].words["variables"] = choice.variables;
-    assembly.formulations[0].words["volumetric_filter"] = choice.filter;
-    report.variables_particles = static_cast<long>(assembly.particles.size());
-    formulations.push_back(make_formulation(assembly));
-    report.variables.push_back({choice.name, mean_neighbours(*formulations.back(), assembly.particles.size())});
-  }
-  // Alternating, so that disturbances of the computer affect all of them.
-  for (int round = 0; round < options.repeats; ++round)
-    for (std::size_t k = 0; k < formulations.size(); ++k)
-      cpu[k] = std::min(cpu[k], fastest_step(*formulations[k], 1).cpu);
-  for (std::size_t k = 0; k < formulations.size(); ++k) {
-    double const stages = formulations[k]->stages_per_step() * static_cast<double>(report.variables_particles);
-    report.variables[k].right_sides_per_cpu_second = stages / cpu[k];
-    report.variables[k].relative_cost =
-        report.variables[0].right_sides_per_cpu_second / report.variables[k].right_sides_per_cpu_second;
-  }
-}
-
-struct BenchmarkCase {
-  char const* name;
-  char const* scheme;
-  double jitter;
-  bool scalar, counted, packed = false;
+/// A row with one instruction set.
+struct Subject {
+  BenchRowSpec const* row;
+  CaseSpec spec;
+  ParticleSet particles;
+  std::optional<Simulation> simulation = {};
+  double time = 0;      ///< of the simulation [s]
+  Parts before = {};    ///< timings before the measurement
+  double stepping = 0;  ///< wall time of the steps since then [s]
+  BenchRow result = {};
 };
 
-Assembly body_of(BenchmarkCase const& subject, BenchOptions const& options, std::string const& backend) {
-  // Packing more takes longer than all the rest; the lists of these are larger than the second-level cache.
-  constexpr int most_packed_across = 48;
-  if (subject.packed) return packed_ball(std::min(options.particles_per_side, most_packed_across), backend);
-  return spinning_cube(options.particles_per_side, subject.scheme, subject.jitter, backend);
+/// The instruction set asked for and, if wanted and in this program, the scalar path.
+std::vector<std::string> backends_of(BenchOptions const& options, bool scalar) {
+  auto const usable = exec_host::usable_backends();
+  bool const best = options.backend == "auto" && !usable.empty();
+  std::vector<std::string> all{best ? usable.front() : options.backend};
+  for (std::string const& name : usable)
+    if (scalar && name == "scalar" && all.front() != name) all.push_back(name);
+  return all;
 }
 
-void measure_rates(BenchReport& report, BenchOptions const& options) {
-  constexpr BenchmarkCase subjects[] = {{"paper, regular lattice", "paper", 0, false, true},
-                                        {"paper, jittered (lists)", "paper", 0.2, false, false},
-                                        {"paper, packed ball, h = dx", "paper", 0, false, false, true},
-                                        {"robust, regular lattice", "robust", 0, false, false},
-                                        {"paper, plain scalar path", "paper", 0, true, false}};
-  bool const has_scalar = jst_sph::find_backend("scalar") != nullptr;
-  for (auto const& subject : subjects) {
-    if (subject.scalar && !has_scalar) continue;
-    auto const assembly = body_of(subject, options, subject.scalar ? "scalar" : report.backend);
-    auto const formulation = make_formulation(assembly);
-    auto const particles = static_cast<double>(assembly.particles.size());
-    if (!subject.packed) report.particles = static_cast<long>(assembly.particles.size());
-    double const neighbours = mean_neighbours(*formulation, assembly.particles.size());
-    for (int const threads : options.threads) {
-      pin_to(threads);
-      Timing const best = fastest_step(*formulation, options.repeats);
-      double const stages = formulation->stages_per_step() * particles;
-      BenchRow row{subject.name, subject.scalar ? "scalar" : report.backend, threads,
-                   static_cast<long>(assembly.particles.size())};
-      row.neighbours = neighbours;
-      row.bytes_per_particle = static_cast<double>(formulation->memory_bytes()) / particles;
-      row.stages_per_second = stages / best.wall;
-      row.stages_per_cpu_second = stages * threads / best.cpu;
-      if (subject.counted) {
-        report.operations_per_pair = operations_per_pair;
-        report.bytes_per_stage = doubles_per_stage * sizeof(double);
-        report.arithmetic_bound = report.fma_per_second * report.lanes / (operations_per_pair * row.neighbours);
-        report.memory_bound = report.copy_bytes_per_second / report.bytes_per_stage;
-        row.roofline_fraction =
-            row.stages_per_cpu_second / threads / std::min(report.arithmetic_bound, report.memory_bound);
-      }
-      report.rows.push_back(row);
+/// Settings for spacings with which a case has at most about `side` cubed particles.
+std::vector<std::string> coarsening(std::filesystem::path const& file, std::vector<std::string> const& settings,
+                                    int side) {
+  ParticleSet made;
+  auto const take_at_once = [](std::string const&, double) { return AfterSweep::take; };
+  CaseSpec const spec = read_case(file, settings, {.packing = take_at_once}, &made);
+  double const power = 1.0 / made.dimension;
+  double const now = std::pow(made.size(), power), most = std::pow(side, 3 * power);
+  return most < now ? spacing_settings(file, settings, spec, (now - 1) / (most - 1)) : std::vector<std::string>{};
+}
+
+Subject prepare(BenchFile const& file, BenchRowSpec const& row, std::string const& backend,
+                BenchOptions const& options) {
+  std::vector<std::string> settings = row.set;
+  settings.push_back("run.machine=" + backend);
+  if (options.most_per_side > 0)
+    for (std::string& more : coarsening(file.case_file, settings, options.most_per_side))
+      settings.push_back(std::move(more));
+  Subject s{.row = &row, .spec = {}, .particles = {}};
+  s.spec = read_case(file.case_file, settings, {}, &s.particles);
+  s.result.bench = file.name;
+  s.result.name = row.name;
+  s.result.backend = backend;
+  s.result.particles = s.particles.size();
+  return s;
+}
+
+/// Mean over all particles of the field Neighbours.
+double mean_neighbours(Formulation const& formulation, std::int64_t particles) {
+  std::vector<double> neighbours(static_cast<std::size_t>(particles));
+  formulation.sample("Neighbours", neighbours);
+  return std::accumulate(neighbours.begin(), neighbours.end(), 0.0) / static_cast<double>(particles);
+}
+
+/// Prepares the measurements with a number of threads. Steps that all count start from the initial state.
+void start_row(Subject& s, int threads) {
+  if (!s.simulation || s.row->steps > 0) {
+    s.spec.run.threads = threads;
+    double const cpu = exec_host::processor_time();
+    s.simulation = build(s.spec, s.particles);
+    s.result.set_up = exec_host::processor_time() - cpu;
+    s.time = 0;
+  }
+  exec_host::set_threads(threads);
+  exec_host::pin_threads();
+  BenchRow const fresh;
+  s.result.threads = threads;
+  s.result.wall = fresh.wall;
+  s.result.cpu = fresh.cpu;
+  s.before = s.simulation->formulation->timings();
+  s.stepping = 0;
+}
+
+/// Returns the wall time [s].
+double take_steps(Subject& s, int steps) {
+  Formulation& formulation = *s.simulation->formulation;
+  double const start = wall_seconds();
+  for (int k = 0; k < steps; ++k) {
+    double const dt = formulation.stable_time_step();
+    formulation.step(s.time, dt);
+    s.time += dt;
+  }
+  double const wall = wall_seconds() - start;
+  s.stepping += wall;
+  return wall;
+}
+
+/// Measures the mean of the steps of the row, or of the steps in 50 ms or more, `repeats` times. The steps before warm
+/// caches and threads.
+void measure(Subject& s, int repeats) {
+  constexpr double least = 0.05;  // s: some systems count the processor time of other threads in ticks of milliseconds
+  double const one = take_steps(s, s.row->warm_up) / s.row->warm_up;
+  int const steps = s.row->steps > 0 ? s.row->steps : std::max(1, static_cast<int>(std::ceil(least / one)));
+  for (int k = 0; k < (s.row->steps > 0 ? 1 : repeats); ++k) {
+    double const time = s.time, cpu = exec_host::processor_time();
+    s.result.wall = std::min(s.result.wall, take_steps(s, steps) / steps);
+    s.result.cpu = std::min(s.result.cpu, (exec_host::processor_time() - cpu) / steps);
+    s.result.time_step = (s.time - time) / steps;
+  }
+}
+
+/// BenchRow::parts, from the timings before and after steps that took `stepping` [s].
+Parts parts_of(Parts const& before, Parts after, double stepping) {
+  bool const in_steps = before != after;
+  double sum = 0;
+  for (auto const& part : after) sum += part.second;
+  for (std::size_t k = 0; k < after.size(); ++k)
+    after[k].second =
+        in_steps ? (after[k].second - before[k].second) / stepping : after[k].second / (sum > 0 ? sum : 1);
+  return after;
+}
+
+BenchRow finish(Subject& s, int repeats) {
+  Formulation const& formulation = *s.simulation->formulation;
+  BenchRow& row = s.result;
+  if (auto const failure = formulation.failure())
+    throw PhysicsError(fmt::format("{}, {}: a particle {}", row.bench, row.name, failure->what));
+  row.parts = parts_of(s.before, formulation.timings(), s.stepping);
+  row.stages = formulation.stages_per_step();
+  row.neighbours = mean_neighbours(formulation, row.particles);
+  row.bytes_per_particle = static_cast<double>(formulation.memory_bytes()) / static_cast<double>(row.particles);
+  row.observation = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < repeats; ++k) {
+    double const wall = wall_seconds();
+    (void)formulation.diagnose();
+    row.observation = std::min(row.observation, wall_seconds() - wall);
+  }
+  return row;
+}
+
+/// Measures rows `first` to `last` - 1 in turn, or one row.
+void measure_rows(BenchFile const& file, std::size_t first, std::size_t last, BenchOptions const& options,
+                  std::vector<BenchRow>& rows) {
+  int const rounds = file.in_turn ? options.repeats : 1;
+  for (std::string const& backend : backends_of(options, file.rows[first].scalar)) {
+    std::vector<Subject> subjects;
+    for (std::size_t k = first; k < last; ++k) subjects.push_back(prepare(file, file.rows[k], backend, options));
+    int const fixed = subjects.front().spec.run.threads;
+    for (int const threads : fixed > 0 ? std::vector{fixed} : options.threads) {
+      for (Subject& s : subjects) start_row(s, threads);
+      for (int k = 0; k < rounds; ++k)
+        for (Subject& s : subjects) measure(s, options.repeats / rounds);
+      for (Subject& s : subjects) rows.push_back(finish(s, options.repeats));
     }
   }
 }
 
+void measure_file(BenchFile const& file, BenchOptions const& options, std::vector<BenchRow>& rows) {
+  std::size_t const count = file.rows.size(), group = file.in_turn ? count : 1, begin = rows.size();
+  for (std::size_t k = 0; k < count; k += group) measure_rows(file, k, k + group, options, rows);
+  for (std::size_t k = begin; k < rows.size(); ++k) {
+    auto const first = std::find_if(rows.begin() + static_cast<std::ptrdiff_t>(begin), rows.end(), [&](auto const& r) {
+      return r.backend == rows[k].backend && r.threads == rows[k].threads;
+    });
+    rows[k].relative_cost = first->stages_per_cpu_second() / rows[k].stages_per_cpu_second();
+  }
+}
+
 }  // namespace
 
-BenchReport bench_jst_sph(BenchOptions const& options) {
-  jst_sph::Backend const* const backend = &jst_sph::choose_backend(options.backend.c_str());
-  BenchReport report;
-  report.backend = backend->name;
-  report.lanes = backend->lanes;
-  pin_to(1);
-  measure_peaks(report, *backend);
-  if (options.rates) measure_rates(report, options);
-  if (options.column) measure_column(report, options);
-  if (options.variables) measure_variables(report, options);
-  return report;
+std::vector<BenchRow> measure_steps(BenchOptions const& options) {
+  std::vector<BenchRow> rows;
+  for (BenchFile const& file : read_benchmarks(options.cases, options.names)) measure_file(file, options, rows);
+  return rows;
 }
 
-std::string to_json(BenchReport const& report) {
-  nlohmann::ordered_json j;
-  j["formulation"] = "jst_sph";
-  j["particles"] = report.particles;
-  j["machine"] = report.backend;
-  j["lanes"] = report.lanes;
-  j["vector_fma_per_second"] = report.fma_per_second;
-  j["copy_bytes_per_second"] = report.copy_bytes_per_second;
-  j["operations_per_pair"] = report.operations_per_pair;
-  j["bytes_per_stage"] = report.bytes_per_stage;
-  j["arithmetic_bound"] = report.arithmetic_bound;
-  j["memory_bound"] = report.memory_bound;
-  for (auto const& row : report.rows)
-    j["rows"].push_back({{"name", row.name},
-                         {"machine", row.backend},
-                         {"threads", row.threads},
-                         {"particles", row.particles},
-                         {"neighbours", row.neighbours},
-                         {"bytes_per_particle", row.bytes_per_particle},
-                         {"stages_per_second", row.stages_per_second},
-                         {"stages_per_cpu_second", row.stages_per_cpu_second},
-                         {"roofline_fraction", row.roofline_fraction}});
-  for (auto const& row : report.column)
-    j["column"].push_back({{"name", row.name},
-                           {"particles", report.column_particles},
-                           {"neighbours", row.neighbours},
-                           {"steps", row.steps},
-                           {"simulated_seconds", row.simulated},
-                           {"cpu_seconds", row.cpu},
-                           {"simulated_ms_per_cpu_second", row.milliseconds_per_cpu_second()}});
-  for (auto const& row : report.variables)
-    j["variables"].push_back({{"name", row.name},
-                              {"particles", report.variables_particles},
-                              {"neighbours", row.neighbours},
-                              {"right_sides_per_cpu_second", row.right_sides_per_cpu_second},
-                              {"relative_cost", row.relative_cost}});
-  return j.dump(2) + "\n";
+std::string to_json(std::vector<BenchRow> const& rows) {
+  auto all = nlohmann::ordered_json::array();
+  for (BenchRow const& row : rows) {
+    auto parts = nlohmann::ordered_json::object();
+    for (auto const& [name, fraction] : row.parts) parts[name] = fraction;
+    all.push_back({{"bench", row.bench},
+                   {"name", row.name},
+                   {"machine", row.backend},
+                   {"threads", row.threads},
+                   {"particles", row.particles},
+                   {"neighbours", row.neighbours},
+                   {"bytes_per_particle", row.bytes_per_particle},
+                   {"set_up_cpu_seconds", row.set_up},
+                   {"stages_per_step", row.stages},
+                   {"seconds_per_step", row.wall},
+                   {"cpu_seconds_per_step", row.cpu},
+                   {"stages_per_second", row.stages_per_second()},
+                   {"stages_per_cpu_second", row.stages_per_cpu_second()},
+                   {"relative_cost", row.relative_cost},
+                   {"time_step", row.time_step},
+                   {"simulated_ms_per_cpu_second", 1e3 * row.time_step / row.cpu},
+                   {"observation_seconds", row.observation},
+                   {"parts", parts}});
+  }
+  return nlohmann::ordered_json{{"rows", all}}.dump(2) + "\n";
 }
 
-namespace {
-
-std::string rates_text(BenchReport const& report) {
-  std::string text = fmt::format(
-      "\nfull right-hand side of {{p,F}}, whole time steps, threads pinned\n"
-      "roofline of the regular lattice: arithmetic {:.1f} M, memory {:.1f} M particle-stages/s per core ({:.0f} "
-      "operations per pair, {:.0f} bytes per stage)\n"
-      "{:<28} {:>8} {:>8} {:>9} {:>6} {:>11} {:>13} {:>13} {:>9}\n",
-      report.arithmetic_bound * 1e-6, report.memory_bound * 1e-6, report.operations_per_pair, report.bytes_per_stage,
-      "", "machine", "threads", "particles", "pairs", "bytes/part.", "M stages/s", "M st./cpu s", "roofline");
-  for (auto const& row : report.rows) {
-    std::string const fraction = row.roofline_fraction > 0 ? fmt::format("{:.0f} %", 100 * row.roofline_fraction) : "";
-    text += fmt::format("{:<28} {:>8} {:>8} {:>9} {:>6.1f} {:>11.0f} {:>13.2f} {:>13.2f} {:>9}\n", row.name,
-                        row.backend, row.threads, row.particles, row.neighbours, row.bytes_per_particle,
-                        row.stages_per_second * 1e-6, row.stages_per_cpu_second * 1e-6, fraction);
+std::string to_text(std::vector<BenchRow> const& rows) {
+  std::string text, bench;
+  for (BenchRow const& row : rows) {
+    if (row.bench != bench)
+      text += fmt::format("\n{:<34} {:>7} {:>7} {:>9} {:>5} {:>7} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9}  {}\n",
+                          row.bench, "machine", "threads", "particles", "pairs", "bytes", "set-up s", "ms/step",
+                          "M st./s", "M/cpu s", "relative", "ms/cpu s", "observe", "parts");
+    bench = row.bench;
+    text += fmt::format(
+        "{:<34} {:>7} {:>7} {:>9} {:>5.1f} {:>7.0f} {:>9.3f} {:>9.3f} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.3g} {:>9.3f} ",
+        row.name, row.backend, row.threads, row.particles, row.neighbours, row.bytes_per_particle, row.set_up,
+        1e3 * row.wall, 1e-6 * row.stages_per_second(), 1e-6 * row.stages_per_cpu_second(), row.relative_cost,
+        1e3 * row.time_step / row.cpu, 1e3 * row.observation);
+    for (auto const& [name, fraction] : row.parts)
+      if (fraction > 0) text += fmt::format(" {} {:.0f} %", name, 100 * fraction);
+    text += "\n";
   }
   return text +
-         "M stages/s: by wall time; M st./cpu s: by processor time, the figure to compare on a machine that others use "
-         "too\n";
-}
-
-std::string column_text(BenchReport const& report) {
-  std::string text = fmt::format(
-      "\ntwisting column, {} particles, default scheme, one thread\n"
-      "{:<28} {:>6} {:>8} {:>13} {:>9} {:>26}\n",
-      report.column_particles, "", "pairs", "steps", "simulated ms", "cpu s", "simulated ms per cpu second");
-  for (auto const& row : report.column)
-    text += fmt::format("{:<28} {:>6.1f} {:>8} {:>13.3f} {:>9.2f} {:>26.2f}\n", row.name, row.neighbours, row.steps,
-                        1e3 * row.simulated, row.cpu, row.milliseconds_per_cpu_second());
-  return text;
-}
-
-std::string variables_text(BenchReport const& report) {
-  std::string text = fmt::format(
-      "\nunknowns and filter, default scheme, {} particles, one thread\n"
-      "{:<28} {:>6} {:>26} {:>24}\n",
-      report.variables_particles, "", "pairs", "M right-hand sides/cpu s", "time per right-hand side");
-  for (auto const& row : report.variables)
-    text += fmt::format("{:<28} {:>6.1f} {:>26.2f} {:>24.2f}\n", row.name, row.neighbours,
-                        row.right_sides_per_cpu_second * 1e-6, row.relative_cost);
-  return text;
-}
-
-}  // namespace
-
-std::string to_text(BenchReport const& report) {
-  std::string text = fmt::format(
-      "JST-SPH on this machine, double precision\n"
-      "machine {}: {:.2f} G vector multiply-adds/s of {} lanes, copy {:.1f} GB/s (one core)\n",
-      report.backend, report.fma_per_second * 1e-9, report.lanes, report.copy_bytes_per_second * 1e-9);
-  if (!report.rows.empty()) text += rates_text(report);
-  if (!report.column.empty()) text += column_text(report);
-  if (!report.variables.empty()) text += variables_text(report);
-  return text;
+         "\npairs: neighbours per particle; bytes: per particle; set-up: processor time; M st./s: million "
+         "particle-stages by wall time;\nM/cpu s: by processor time of all threads, the figure to compare on a "
+         "machine that others use too; relative: its inverse, over that of\nthe first row; ms/cpu s: simulated time by "
+         "processor time; observe: ms for a row of the history; parts: of the time of a step, or of the set-up\n";
 }
 
 }  // namespace piola

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/bench/bench_accuracy.hpp"
-#include "piola/base/errors.hpp"
-#include "piola/bench/bench_columns.hpp"
-#include "piola/bench/bench_support.hpp"
-#include "piola/exec/backend_registry.hpp"
+#include "piola/exec/cpu_time.hpp"
+#include "piola/exec/threads.hpp"
 #include "piola/formulations/make_formulation.hpp"
-#include "piola/formulations/nodal/state.hpp"
+#include "piola/input/read_case.hpp"
 #include "piola/measures/probe.hpp"
 #include "piola/measures/quantities.hpp"
+#include "piola/simulation/build.hpp"
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -17,57 +16,45 @@
 namespace piola {
 namespace {
 
+/// A case whose first probe measures a peak.
 struct Problem {
-  char const* name;
-  Column column;
+  char const *name, *folder;
   double poissons_ratio;
   double reference;  ///< bench/finite_elements/README.md, in `unit`
   double unit;       ///< SI value of the unit of `reference`
   double end;        ///< just after the peak [s]
-  double every;      ///< sampling interval [s]
 };
 
 constexpr double degrees = std::numbers::pi / 180;
-constexpr Problem studies[] = {{"twist", Column::twisting, 0.45, 337.5, degrees, 0.12, 5e-4},
-                               {"twist", Column::twisting, 0.499, 342.7, degrees, 0.12, 5e-4},
-                               {"bend", Column::bending, 0.45, 2.997, 1, 0.5, 5e-3},
-                               {"bend", Column::bending, 0.499, 2.987, 1, 0.5, 5e-3}};
+constexpr Problem studies[] = {{"twist", "nodal/twisting_column", 0.45, 337.5, degrees, 0.12},
+                               {"twist", "nodal/twisting_column", 0.499, 342.7, degrees, 0.12},
+                               {"bend", "nodal/bending_column", 0.45, 2.997, 1, 0.5},
+                               {"bend", "nodal/bending_column", 0.499, 2.987, 1, 0.5}};
 
 struct Scheme {
-  char const* name;
-  char const* formulation;
-  char const* scheme;  ///< nullptr: the default
+  char const *name, *settings;
 };
 
-constexpr Scheme compared[] = {
-    {"nodal", "nodal", nullptr}, {"jst_sph", "jst_sph", nullptr}, {"jst_sph paper", "jst_sph", "paper"}};
+constexpr Scheme compared[] = {{"nodal", R"({ name = "nodal" })"},
+                               {"jst_sph", R"({ name = "jst_sph" })"},
+                               {"jst_sph paper", R"({ name = "jst_sph", scheme = "paper" })"}};
 
-ProbeSpec probe_of(Problem const& problem) {
-  ProbeSpec spec;
-  spec.name = "top";
-  spec.body = "column";
-  spec.where = Expression("Y > 5.999999");
-  bool const twisting = problem.column == Column::twisting;
-  spec.kind = twisting ? ProbeSpec::Kind::twist : ProbeSpec::Kind::average;
-  spec.axis = 1;
-  spec.quantities = {twisting ? "twist_angle" : "displacement_x"};
-  return spec;
-}
-
-/// Steps to the end of the problem; evaluates the probe and the clock.
-void run(Formulation& formulation, ParticleSet const& particles, Problem const& problem, AccuracyRow& row) {
-  Probe probe(probe_of(problem), particles);
+/// Steps to the end of the problem; evaluates the probe at the intervals of the history.
+void run(Formulation& formulation, ParticleSet const& particles, Problem const& problem, CaseSpec const& spec,
+         AccuracyRow& row) {
+  Probe probe(spec.probes.front(), particles);
+  double const every = spec.output.history_every;
   std::vector<double> times, values;
-  auto const look = [&](double time) {
+  auto const observe = [&](double time) {
     FieldCache cache(formulation, particles);
     times.push_back(time);
     values.push_back(probe.evaluate(cache, time).front());
   };
-  look(0);
+  observe(0);
   double time = 0;
   while (time < problem.end) {
-    double const next = problem.every * (std::floor(time / problem.every) + 1);  // a step may be longer
-    double const start = cpu_seconds();
+    double const next = every * (std::floor(time / every) + 1);  // a step may be longer
+    double const start = exec_host::processor_time();
     for (; time < next && row.failure.empty(); ++row.steps) {
       double const dt = formulation.stable_time_step();
       if (!(dt > 0)) row.failure = "the time step collapsed";
@@ -75,9 +62,9 @@ void run(Formulation& formulation, ParticleSet const& particles, Problem const& 
       time += dt;
       if (auto const failure = formulation.failure()) row.failure = fmt::format("a particle {}", failure->what);
     }
-    row.cpu += cpu_seconds() - start;
+    row.cpu += exec_host::processor_time() - start;
     if (!row.failure.empty()) return;
-    look(time);
+    observe(time);
   }
   auto const peak = first_peak(times, values);
   if (!peak || !std::isfinite(peak->value)) {
@@ -88,7 +75,7 @@ void run(Formulation& formulation, ParticleSet const& particles, Problem const& 
   row.error = row.value / problem.reference - 1;
 }
 
-AccuracyRow measure(Problem const& problem, Scheme const& scheme, int across, std::string const& backend) {
+AccuracyRow measure_run(Problem const& problem, Scheme const& scheme, int across, AccuracyOptions const& options) {
   double const none = std::numeric_limits<double>::quiet_NaN();
   AccuracyRow row{.problem = problem.name,
                   .poissons_ratio = problem.poissons_ratio,
@@ -97,81 +84,39 @@ AccuracyRow measure(Problem const& problem, Scheme const& scheme, int across, st
                   .value = none,
                   .error = none,
                   .failure = {}};
-  FormulationSpec formulation{scheme.formulation, {}, {}};
-  if (scheme.scheme != nullptr) formulation.words["scheme"] = scheme.scheme;
-  Assembly const assembly = column(problem.column, {across, 6 * (across - 1) + 1, across},
-                                   rubber(problem.poissons_ratio), formulation, backend);
-  row.particles = static_cast<long>(assembly.particles.size());
-  double const start = cpu_seconds();
-  auto const solver = make_formulation(assembly);
-  row.set_up = row.cpu = cpu_seconds() - start;
-  run(*solver, assembly.particles, problem, row);
+  std::vector<std::string> const settings{
+      fmt::format("body.column.shape.particles=[{}, {}, {}]", across, 6 * (across - 1) + 1, across),
+      fmt::format("body.column.material.poissons_ratio={}", problem.poissons_ratio),
+      fmt::format("body.column.formulation={}", scheme.settings), fmt::format("run.machine={}", options.backend)};
+  ParticleSet made;
+  CaseSpec const spec = read_case(options.cases / problem.folder, settings, {}, &made);
+  Assembly const assembly = assemble(spec, std::move(made));
+  row.particles = assembly.particles.size();
+  double const start = exec_host::processor_time();
+  auto const formulation = make_formulation(assembly);
+  row.set_up = row.cpu = exec_host::processor_time() - start;
+  run(*formulation, assembly.particles, problem, spec, row);
   return row;
-}
-
-struct CostAtAccuracy {
-  double error;
-  char const* text;
-};
-
-/// Processor time of the coarsest run from which on a scheme stays within an error; nan: it does not.
-double price(AccuracyReport const& report, AccuracyRow const& of, double error) {
-  double cpu = std::numeric_limits<double>::quiet_NaN();
-  for (auto const& row : report.rows) {
-    if (row.problem != of.problem || row.poissons_ratio != of.poissons_ratio || row.formulation != of.formulation)
-      continue;
-    bool const within = std::abs(row.error) <= error;
-    if (!within)
-      cpu = std::numeric_limits<double>::quiet_NaN();
-    else if (std::isnan(cpu))
-      cpu = row.cpu;
-  }
-  return cpu;
-}
-
-constexpr CostAtAccuracy prices[] = {{0.03, "3 %"}, {0.01, "1 %"}, {0.003, "0.3 %"}};
-
-std::string prices_text(AccuracyReport const& report) {
-  std::string text =
-      fmt::format("\nprocessor time from which on the error stays below [s]\n{:<6} {:>6} {:<16}", "", "nu", "");
-  for (auto const& p : prices) text += fmt::format(" {:>8}", p.text);
-  text += "\n";
-  AccuracyRow const* last = nullptr;
-  for (auto const& row : report.rows) {
-    bool const same = last != nullptr && last->problem == row.problem && last->poissons_ratio == row.poissons_ratio &&
-                      last->formulation == row.formulation;
-    last = &row;
-    if (same) continue;
-    text += fmt::format("{:<6} {:>6} {:<16}", row.problem, row.poissons_ratio, row.formulation);
-    for (auto const& p : prices) {
-      double const cpu = price(report, row, p.error);
-      text += std::isnan(cpu) ? fmt::format(" {:>8}", "-") : fmt::format(" {:>8.3f}", cpu);
-    }
-    text += "\n";
-  }
-  return text;
 }
 
 }  // namespace
 
-AccuracyReport bench_accuracy(AccuracyOptions const& options) {
-  nodal::Backend const* const backend = &nodal::choose_backend(options.backend.c_str());
-  AccuracyReport report;
-  report.backend = backend->name;
-  pin_to(1);
+std::vector<AccuracyRow> measure_accuracy(AccuracyOptions const& options) {
+  exec_host::set_threads(1);
+  exec_host::pin_threads();
+  std::vector<AccuracyRow> rows;
   for (auto const& problem : studies)
     for (auto const& scheme : compared)
       for (int const across : options.across) {
-        report.rows.push_back(measure(problem, scheme, across, report.backend));
-        if (report.rows.back().cpu > options.longest) break;
+        rows.push_back(measure_run(problem, scheme, across, options));
+        if (rows.back().cpu > options.longest) break;
       }
-  return report;
+  return rows;
 }
 
-std::string to_json(AccuracyReport const& report) {
+std::string to_json(std::vector<AccuracyRow> const& rows) {
   nlohmann::ordered_json j;
-  j["machine"] = report.backend;
-  for (auto const& row : report.rows) {
+  for (auto const& row : rows) {
     nlohmann::ordered_json r{{"problem", row.problem},           {"poissons_ratio", row.poissons_ratio},
                              {"formulation", row.formulation},   {"across", row.across},
                              {"particles", row.particles},       {"steps", row.steps},
@@ -187,19 +132,19 @@ std::string to_json(AccuracyReport const& report) {
   return j.dump(2) + "\n";
 }
 
-std::string to_text(AccuracyReport const& report) {
+std::string to_text(std::vector<AccuracyRow> const& rows) {
   std::string text = fmt::format(
-      "errors against processor time, machine {}, one thread; first peak against converged finite elements\n"
+      "errors against processor time, one thread; first peak against converged finite elements\n"
       "{:<6} {:>6} {:<16} {:>6} {:>9} {:>7} {:>10} {:>9} {:>9} {:>9}\n",
-      report.backend, "", "nu", "", "across", "particles", "steps", "value", "error", "set-up s", "cpu s");
-  for (auto const& row : report.rows) {
+      "", "nu", "", "across", "particles", "steps", "value", "error", "set-up s", "cpu s");
+  for (auto const& row : rows) {
     text += fmt::format("{:<6} {:>6} {:<16} {:>6} {:>9} {:>7} ", row.problem, row.poissons_ratio, row.formulation,
                         row.across, row.particles, row.steps);
     text += row.failure.empty() ? fmt::format("{:>10.4f} {:>+8.2f} %", row.value, 100 * row.error)
                                 : fmt::format("{:>20}", row.failure);
     text += fmt::format(" {:>8.3f} {:>9.3f}\n", row.set_up, row.cpu);
   }
-  return text + prices_text(report);
+  return text;
 }
 
 }  // namespace piola

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace piola {
 
 struct AccuracyOptions {
+  std::filesystem::path cases;  ///< folder with nodal/twisting_column and nodal/bending_column
   std::vector<int> across{3, 4, 5, 6, 7, 8, 9, 10, 11, 12};  ///< particles across the column
-  double longest = 60;  ///< CPU time from which on a scheme is not run with more particles [s]
+  double longest = 60;  ///< processor time from which on a scheme is not run with more particles [s]
   std::string backend = "auto";
 };
 
@@ -17,23 +20,18 @@ struct AccuracyRow {
   double poissons_ratio = 0;
   std::string formulation;  ///< formulation and scheme
   int across = 0;
-  long particles = 0, steps = 0;
+  std::int64_t particles = 0, steps = 0;
   double value = 0;            ///< first peak: twist of the top [degree], displacement of the tip [m]; nan: none
   double error = 0;            ///< relative to the converged finite elements
   double set_up = 0, cpu = 0;  ///< processor time: of the set-up, and of everything [s]
   std::string failure;         ///< why there is no value
 };
 
-struct AccuracyReport {
-  std::string backend;
-  std::vector<AccuracyRow> rows;
-};
-
-/// Errors against processor time: `nodal` and `jst_sph` (its default and the printed scheme), twisting and bending
+/// Errors against processor time: `nodal` and `jst_sph` (its default and the published scheme), twisting and bending
 /// column at nu = 0.45 and 0.499. The references are those of bench/finite_elements.
-AccuracyReport bench_accuracy(AccuracyOptions const& options);
+std::vector<AccuracyRow> measure_accuracy(AccuracyOptions const& options);
 
-std::string to_json(AccuracyReport const& report);
-std::string to_text(AccuracyReport const& report);
+std::string to_json(std::vector<AccuracyRow> const& rows);
+std::string to_text(std::vector<AccuracyRow> const& rows);
 
 }  // namespace piola

@@ -18,15 +18,6 @@ bool has_v3() { return false; }
 bool has_v4() { return false; }
 #endif
 
-/// The first machine of this program that the processor can run and that was asked for.
-std::string_view find_backend(std::string_view asked) {
-#define PIOLA_NAME(backend) \
-  if (processor_can_run(#backend) && (asked == "auto" || asked == #backend)) return #backend;
-  PIOLA_EACH_MACHINE(PIOLA_NAME)
-#undef PIOLA_NAME
-  return asked;
-}
-
 std::string_view best_of_processor() { return has_v4() ? "v4" : has_v3() ? "v3" : "scalar"; }
 
 }  // namespace
@@ -37,8 +28,19 @@ bool processor_can_run(std::string_view backend) {
   return backend == "scalar" || backend == "native";
 }
 
+std::vector<std::string> usable_backends() {
+  std::vector<std::string> usable;
+#define PIOLA_NAME(backend) \
+  if (processor_can_run(#backend)) usable.emplace_back(#backend);
+  PIOLA_EACH_MACHINE(PIOLA_NAME)
+#undef PIOLA_NAME
+  return usable;
+}
+
 std::string backend_text(std::string_view asked) {
-  return std::string(find_backend(asked)) + " of a processor with " + std::string(best_of_processor());
+  auto const usable = usable_backends();
+  std::string const name = asked == "auto" && !usable.empty() ? usable.front() : std::string(asked);
+  return name + " of a processor with " + std::string(best_of_processor());
 }
 
 std::string not_usable(std::string_view backend, char const* const* usable) {

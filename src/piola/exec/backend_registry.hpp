@@ -10,6 +10,9 @@ namespace piola::exec_host {
 /// Whether this processor supports the instruction set of that name (see base/backend.hpp).
 bool processor_can_run(std::string_view backend);
 
+/// The instruction sets of this program that the processor supports, best first.
+std::vector<std::string> usable_backends();
+
 /// Describes the instruction set of a run ("auto" too) and of the processor: "v3 of a processor with v4". Two runs have
 /// equal bits only if this text is equal. The processor counts too, because mathematical functions of the system choose
 /// by processor.

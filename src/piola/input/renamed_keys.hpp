@@ -18,7 +18,8 @@ struct RenamedWord {
   std::string_view section, key, before, now;
 };
 
-/// All of them; columns and fields are in formulations/renamed_outputs.hpp. The next minor release empties these tables.
+/// All of them; columns and fields are in formulations/renamed_outputs.hpp. The next minor release empties these
+/// tables.
 std::span<RenamedKey const> renamed_keys();
 std::span<RenamedWord const> renamed_words();
 

@@ -166,6 +166,9 @@ TEST(NodalClosure, TakesFewIterationsWhateverTheSizeAndTheCloud) {
       EXPECT_GT(iterations, 5) << n[0] << " " << jitter;
       EXPECT_LT(iterations, 40) << n[0] << " " << jitter;
     }
+  // On long columns 32, 36, 39; from 320 spacings on splines no longer see what varies across the column: 103.
+  for (int const length : {40, 80, 160})
+    EXPECT_LT(SetUpBody(nodal_body(brick(3, 0.2, {5, 5, length}))).reference.integration_iterations, 50) << length;
 }
 
 TEST(NodalSetUp, RefusesABarSoLongThatItsGradientsMissTheDivergenceTheorem) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The loops of JST-SPH for one machine; compiled once per instruction set (PIOLA_MACHINE).
 #include "piola/domain/communicator.hpp"
-#include "piola/exec/peak_memory.hpp"
 #include "piola/formulations/jst_sph/step.hpp"
 #include "piola/formulations/jst_sph/verlet_step.hpp"
 
@@ -67,8 +66,7 @@ double largest_wave_speed(BodyState& body) {
 
 /// The entry by which the host finds this instruction set.
 extern Backend const backend;
-Backend const backend{
-    PIOLA_BACKEND_NAME,    lane_count, &step,           &update_wave_speed, &largest_wave_speed, &update_deformation,
-    &exec::run_fma_chains, &commit,    &observe_energy, &exec::copy};
+Backend const backend{PIOLA_BACKEND_NAME,  lane_count,          &step,   &update_wave_speed,
+                      &largest_wave_speed, &update_deformation, &commit, &observe_energy};
 
 }  // namespace piola::jst_sph::inline PIOLA_MACHINE

@@ -190,10 +190,8 @@ struct Backend {
   void (*update_wave_speed)(BodyState& body);        ///< from the current F
   double (*largest_wave_speed)(BodyState& body);     ///< m/s
   void (*update_deformation)(BodyState& body);       ///< displacement variables: F from x
-  double (*run_fma_chains)(long rounds);             ///< for benchmarks, see exec/peak_memory.hpp
   void (*commit_solid)(BodyState& body, double dt);  ///< solids in rate form: stores the state at the F of the body
   void (*observe_energy)(BodyState& body);           ///< hourglass energy and filtered volume ratio of the state
-  void (*copy)(double const* from, double* to, Index n);
 };
 
 /// The instruction set of that name, or the best one of this processor for "auto"; nullptr if it is unknown or not

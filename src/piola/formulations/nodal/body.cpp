@@ -69,7 +69,7 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
 
 void NodalBody::set_up(Assembly const& assembly, Backend const& backend) {
   reference_ = make_reference({*set_, body_, order_, assembly.loads, assembly.supports, densities(),
-                               options_.least_mass, backend, images_.empty() ? nullptr : &images_, 1e-3,
+                               options_.least_mass, backend, images_.empty() ? nullptr : &images_,
                                comm::is_parallel() ? std::optional(state_.slots) : std::nullopt});
 }
 

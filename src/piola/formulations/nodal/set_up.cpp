@@ -2,8 +2,8 @@
 #include "piola/formulations/nodal/set_up.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/exec/host_loops.hpp"
-#include "piola/formulations/nodal/integration_check.hpp"
 #include "piola/formulations/nodal/constrained_facets.hpp"
+#include "piola/formulations/nodal/integration_check.hpp"
 #include "piola/formulations/nodal/integration_constraint.hpp"
 #include "piola/formulations/nodal/load_integrals.hpp"
 #include "piola/formulations/nodal/masses.hpp"
@@ -310,9 +310,10 @@ void refuse_without_cell(SetUp const& from, ScaledBody const& scaled) {
 
 template <int D>
 IntegrationCorrection find_integration_correction(SetUp const& from, IntegrationConstraint<D> const& divergence,
-                                   SymmetryReduction<D> const* fold, Reference& r) {
+                                                  SymmetryReduction<D> const* fold, Reference& r) {
+  constexpr double tolerance = 1e-3;  // of the first residual; smaller values change no result
   IntegrationCorrection integration_correction =
-      divergence.solve(from.integration_tolerance, from.backend, r.lattice ? &*r.lattice : nullptr, {fold, r.halo.get()});
+      divergence.solve(tolerance, from.backend, r.lattice ? &*r.lattice : nullptr, {fold, r.halo.get()});
   if (integration_correction.rounding > most_rounding) r.lattice.reset();  // lists take differences of positions first
   r.integration_iterations = integration_correction.iterations;
   check_integration(from, integration_correction, r.checks);
@@ -357,7 +358,8 @@ Reference make(SetUp const& from) {
   if (shared) r.halo = std::make_unique<HaloPlan>(shared->slots, ghost_neighbours(fits.pairs(), fits.own()));
   r.costs.fits = since(clock);
   IntegrationConstraint<D> const divergence(fits, scaled.cells, scaled.patches);
-  IntegrationCorrection const integration_correction = find_integration_correction<D>(from, divergence, fold ? &*fold : nullptr, r);
+  IntegrationCorrection const integration_correction =
+      find_integration_correction<D>(from, divergence, fold ? &*fold : nullptr, r);
   r.parts = load_integrals<D>(from, fits, divergence, {scaled.h, r.checks});
   for (auto& parts : r.parts) parts.resize(std::min(parts.size(), scaled.particles));
   r.held = constrained_facets<D>(from, fits, scaled.patches, scaled.h);

@@ -33,12 +33,10 @@ struct SetUp {
   SlotOrder const& order;
   std::vector<Load> const& loads;
   std::vector<Support> const& supports;
-  std::vector<double> const& rho0;       ///< of the main material and of the parts [kg/m^3]
-  double least_mass;                     ///< of a particle over that of its cell
-  Backend const& backend;                ///< instruction set of the loops that solve for the divergence theorem
-  MirrorImages const* images = nullptr;  ///< the whole body behind its mirror planes; nullptr: it has none
-  /// Tolerance of the residual of the divergence theorem; smaller values change no result.
-  double integration_tolerance = 1e-3;
+  std::vector<double> const& rho0;          ///< of the main material and of the parts [kg/m^3]
+  double least_mass;                        ///< of a particle over that of its cell
+  Backend const& backend;                   ///< instruction set of the loops that solve for the divergence theorem
+  MirrorImages const* images = nullptr;     ///< the whole body behind its mirror planes; nullptr: it has none
   std::optional<Range> own = std::nullopt;  ///< local slots if the body is distributed; empty: all
 
   /// Whether the set-up is distributed over ranks. With mirror planes, or surface places that supports hold, each rank
