@@ -20,6 +20,9 @@ Up upwards(CaseSpec const& spec);
 std::vector<RigidShape> shapes_at(std::vector<RigidSpec> const& rigids, double time,
                                   std::span<double const> poses = {});
 
+/// The panels of a case, or its picture alone.
+std::span<PictureSpec const> panels_of(PicturesSpec const& pictures);
+
 /// The representation of a word of representation_words.
 Representation representation_of(std::string_view word);
 
