@@ -28,9 +28,10 @@ else()
   set_source_files_properties("${PROJECT_SOURCE_DIR}/src/piola/domain/communicator_serial.cpp" PROPERTIES
     SKIP_UNITY_BUILD_INCLUSION ON)  # programs may bring ranks_mpi.cpp in its place: PiolaProgram.cmake
 endif()
-set(_input_sources ${_sources})
-list(FILTER _input_sources INCLUDE REGEX "/src/piola/(input|model)/")
-list(FILTER _sources EXCLUDE REGEX "/src/piola/(input|model)/")
+set(_cold "/src/piola/(input|model|observers|guards|pictures|simulation|estimates|study|verification|bench|report)/")
+set(_cold_sources ${_sources})
+list(FILTER _cold_sources INCLUDE REGEX "${_cold}")
+list(FILTER _sources EXCLUDE REGEX "${_cold}")
 
 set(_outside Piola::cairo Piola::webpmux Piola::webp Piola::hdf5 PNG::PNG Piola::libdeflate Piola::qhull
              Piola::udunits2 muparser::muparser nlohmann_json::nlohmann_json)
@@ -74,6 +75,6 @@ target_link_libraries(piola
   PRIVATE $<BUILD_INTERFACE:piola_hardened> ${_outside})
 piola_add_modules(piola_modules ${_sources})
 
-# Reading a case is no hot loop, and compiles a third faster with little optimisation.
-piola_add_modules(piola_input ${_input_sources})
-target_compile_options(piola_input PRIVATE $<$<CONFIG:Release>:-O1>)
+# Modules without hot loops compile a third faster with little optimisation.
+piola_add_modules(piola_cold ${_cold_sources})
+target_compile_options(piola_cold PRIVATE $<$<CONFIG:Release>:-O1>)

@@ -10,12 +10,12 @@ namespace {
 using namespace testing;
 using adaptle::BodyConstants;
 using adaptle::ContactForce;
-using adaptle::ContactPair;
+using adaptle::KernelContactPair;
 using adaptle::RigidPoseAtHalfTime;
 
 template <int D>
 void force_is_minus_the_slope_of_the_energy() {
-  ContactPair p{3e2, 1.4e-3, 1.1e-3};
+  KernelContactPair p{3e2, 1.4e-3, 1.1e-3};
   adaptle::Kernel<D> const kernel(p.h);
   for (double const exponent : {1.0, 4.0, 6.0}) {
     p.exponent = exponent;
@@ -40,7 +40,7 @@ TEST(AdaptleContact, ForcesOfTheKernelLawAreMinusTheSlopeOfTheirEnergy) {
 }
 
 TEST(AdaptleContact, TheLinearLawIsASpringBelowTheSpacing) {
-  ContactPair const p{50, 1, 0.2};
+  KernelContactPair const p{50, 1, 0.2};
   EXPECT_EQ(adaptle::linear_contact(p, 0.2).force, 0);
   EXPECT_EQ(adaptle::linear_contact(p, 0.3).stiffness, 0);
   EXPECT_NEAR(adaptle::linear_contact(p, 0.15).force, 50 * 0.05 / 0.04, 1e-12);
