@@ -94,7 +94,7 @@ void SetUpWatch::end_if_due() {
   bool const asked = stop_signal != 0 && !packs();
   if (!(late || asked) || comm::rank() != 0) return;
   line_.clear();
-  // If a rank stops all ranks, the launcher sends signals to the others; that rank has printed the reason.
+  // A rank that stops the run prints the reason. The launcher then sends signals to the remaining ranks.
   bool const launcher_may_have_sent_it = !late && comm::is_parallel();
   if (!launcher_may_have_sent_it)
     print_message(

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a frame and a checkpoint take of a run on ranks, and how much of that rank 0 spends with getting what the others
-have: a cube of N^3 particles, ten steps, with nothing, with a frame and with a checkpoint after each step.
+"""Measures the cost of frames and checkpoints of a run on ranks, and the part that rank 0 spends gathering values of
+other ranks: a cube of N^3 particles, ten steps, without output, with a frame and with a checkpoint after each step.
 
 Usage: bench/ranks_files.py PROGRAM [N [RANKS,RANKS... [REPEATS]]]        (default: 60, 1,2,4, 3; medians)
 PROGRAM must know MPI (PIOLA_MPI, or piola-mpi of PIOLA_MPI_BESIDE). Ranks have one thread each.

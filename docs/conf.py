@@ -41,7 +41,7 @@ CONTENTS = {
         ("Use", ["docs/user/first-hour", "docs/user/gallery", "docs/user/features", "docs/user/formulations",
                  "docs/user/case-file", "docs/user/*", "cases/README"]),
         ("Theory", ["docs/theory/README"]),
-        ("Develop", ["CONTRIBUTING", "docs/developer/house", "docs/developer/*", "docs/decisions/README",
+        ("Develop", ["CONTRIBUTING", "docs/developer/architecture", "docs/developer/*", "docs/decisions/README",
                      "bench/README"]),
         ("About", ["README", "CHANGELOG"]),
     ],

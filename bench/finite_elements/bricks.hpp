@@ -5,7 +5,7 @@
 
 namespace bricks {
 
-/// What a look at all bricks finds besides the forces.
+/// Results of a sweep over all bricks, in addition to the forces.
 struct Watch {
   double energy = 0;      ///< strain energy, J
   double frequency2 = 0;  ///< bound of the square of the largest angular frequency, 1/s^2

@@ -20,14 +20,14 @@ TEST(QuantisedBounds, IsAsFarAsItsNearestPlace) {
   box.add({0.75, 0.5, 0});
   EXPECT_EQ(box.bounds({}).square_from({0.5, 0.5, 0}), 0);
   EXPECT_NEAR(box.bounds({}).square_from({-0.75, 0.5, 0}), 1, 1e-12);
-  // A 256th more than the farthest place, at most.
+  // Bounds exceed the farthest position by at most 1/256 of a cell.
   EXPECT_NEAR(box.bounds({}).square_from({1.75, 1.5, 0}), 2, 0.02);
   EXPECT_LE(box.bounds({}).square_from({1.75, 1.5, 0}), 2);
-  box.add({1.5, 0.5, 0});  // shares a cell at the border, which it lies outside of
+  box.add({1.5, 0.5, 0});  // a position outside its cell makes the bounds infinite
   EXPECT_EQ(box.bounds({}).square_from({100, 0, 0}), 0);
 }
 
-/// Particles of two bodies, of which some of the second flow, dealt to ranks.
+/// Particles of two bodies, distributed over ranks; a part of the second body is Eulerian.
 struct Cloud {
   int dimension;
   std::vector<std::array<double, 3>> x;
@@ -52,7 +52,8 @@ struct Cloud {
   }
 };
 
-/// Whoever is within reach of a reader is exported to its rank, and nobody who is much farther away.
+/// A particle is exported to each rank with an interacting particle within one cell size, and to no rank whose
+/// particles are all farther away than (1 + sqrt(dimension)) cell sizes.
 TEST(HaloCells, TellThoseWithinReachAndNobodyFarAway) {
   for (int const dimension : {2, 3}) {
     Cloud const c(dimension);
@@ -101,16 +102,16 @@ TEST(HaloCells, TellThoseWithinReachAndNobodyFarAway) {
   }
 }
 
-/// Whoever tells knows whom, and those know by whom, also where cells behind a surface that touches tell nothing.
+/// Sending and receiving ranks derive the same pairs of ranks. Cells behind a contact surface export nothing.
 TEST(HaloCells, LetBothSidesKnowWhoMeets) {
   for (bool const touching : {false, true}) {
     HaloCells marks;
     marks.start({9, 5, 1}, 2);
-    // Along x: three cells of one body, each of another rank, then two of the other body.
+    // Along x: three cells of one body, each on a rank of its own, then two cells of the other body.
     for (Index k = 0; k < 5; ++k)
       for (Index row : {9, 18, 27}) marks.add({row + k + 1, k < 3 ? 0 : 1}, k < 3 ? static_cast<int>(k) : 3);
     marks.finish(touching);
-    using Pairs = std::set<std::pair<int, int>>;  // who tells, who is exported
+    using Pairs = std::set<std::pair<int, int>>;  // sending rank, receiving rank
     Pairs by_sender, by_receiver;
     for (Index k = 0; k < 5; ++k)
       for (Index row : {9, 18, 27}) {

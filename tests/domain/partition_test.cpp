@@ -26,7 +26,7 @@ double busiest(Work const& work, Work const& before, std::vector<Index> const& f
   return *std::max_element(all.begin(), all.end());
 }
 
-/// The least that any cut leaves to the busiest rank, by trying all of them; each rank has so many blocks at least.
+/// Smallest load of the busiest rank over all partitions with at least `least` blocks per rank, found by trying all.
 double least_of_all(Work const& work, Work const& before, Index least) {
   auto const blocks = static_cast<Index>(work.size()), ranks = static_cast<Index>(before.size());
   double best = 1e300;

@@ -2,10 +2,10 @@
 #pragma once
 #include "piola/setup/shapes.hpp"
 
-/// Bodies that tests of pictures draw.
+/// Shapes for tests of pictures.
 namespace piola::testing {
 
-/// A box of 2 x 1 x 0.5 m, in 2D of 2 x 1 m, of cells that are cubes.
+/// A box of 2 x 1 x 0.5 m with 4n x 2n x n particles; in 2D 2 x 1 m with 4n x 2n.
 inline ShapeSpec drawn_box(int n, ShapeSpec::Placement placement, int dimension = 3) {
   ShapeSpec shape;
   shape.dimension = dimension;
@@ -15,7 +15,7 @@ inline ShapeSpec drawn_box(int n, ShapeSpec::Placement placement, int dimension 
   return shape;
 }
 
-/// A cylinder of cells along z.
+/// A solid cylinder along z on a cell-centred lattice.
 inline ShapeSpec drawn_cylinder(double radius, double length, double spacing) {
   ShapeSpec shape;
   shape.kind = ShapeSpec::Kind::cylinder;
@@ -26,7 +26,7 @@ inline ShapeSpec drawn_cylinder(double radius, double length, double spacing) {
   return shape;
 }
 
-/// A disc of rings.
+/// A 2D disc or annulus whose particles lie on concentric rings.
 inline ShapeSpec drawn_rings(double radius, double spacing, double inner_radius = 0) {
   ShapeSpec shape;
   shape.kind = ShapeSpec::Kind::sphere;

@@ -101,7 +101,7 @@ TEST(Raster, DrawsTrianglesWithTheirValuesAndWithoutGaps) {
     for (int i = 0; i < n; ++i) {
       int const a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
       surfaces.triangles.push_back({{a, b, d}, {}, 3});
-      surfaces.triangles.push_back({{a, c, d}, {}, 3});  // the other way round
+      surfaces.triangles.push_back({{a, c, d}, {}, 3});  // opposite orientation
     }
   auto const out = drawn(surfaces);
   for (int y = 0; y < 16 * n; ++y)

@@ -5,11 +5,11 @@
 
 namespace piola::testing {
 
-/// Numbers of threads that must give the same bits: one, the same partition twice, and odd ones that cut elsewhere.
+/// Thread counts whose results must be equal bit for bit. Odd counts split loops at other places than 2 does.
 inline constexpr std::array thread_counts{1, 2, 3, 7};
 
-/// Sets the number of threads while it lives and puts it back. Loops are shared by all of them however few particles
-/// there are.
+/// Sets the number of threads for its lifetime and restores it in its destructor. Sets the minimal grain size to 1, so
+/// that even short loops use all threads.
 class Threads {
  public:
   explicit Threads(int n) : before_(exec_host::threads()), share_(exec_host::set_min_grain_size(1)) {

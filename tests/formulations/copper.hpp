@@ -3,7 +3,7 @@
 #include "piola/materials/hypoelastic_registry.hpp"
 #include "formulations/small_bodies.hpp"
 
-/// The metal of tests of solids in rate form, and its expected response.
+/// Copper for tests of solids in rate form, and its reference response.
 namespace piola::testing::metals {
 
 inline constexpr double rho0 = 8930, E = 117e9, nu = 0.35, yield = 400e6, hardening = 100e6;
@@ -31,7 +31,7 @@ struct Sheared {
   SymMat<3> S;  ///< deviator [Pa]
   double plastic_strain = 0;
 };
-/// Of copper in simple shear until `end` [s], v = rate Y along X: the rate equation, integrated in small steps.
+/// Reference response of copper in simple shear v_x = rate Y until `end` [s]: the rate equation in 20,000 steps.
 inline Sheared simple_shear(double rate, double end) {
   Sheared sheared;
   with_solid(copper(), [&](auto const& law) {

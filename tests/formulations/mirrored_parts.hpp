@@ -4,7 +4,7 @@
 #include <limits>
 #include <map>
 
-/// Parts of bodies with mirror planes, compared with the whole bodies.
+/// Comparison of parts with mirror planes and the whole bodies that they stand for.
 namespace piola::testing {
 
 inline ParticleSet box_between(int dimension, Point const& low, Point const& high, std::array<int, 3> n,
@@ -23,7 +23,8 @@ inline ParticleSet box_between(int dimension, Point const& low, Point const& hig
   return set;
 }
 
-/// Largest difference of a field between the particles of `part` and those at the same places of `whole`.
+/// Largest difference of a field between the particles of `part` and the particles of `whole` at the same reference
+/// position (equal to 1e-6 m). Infinite if `whole` has no particle there.
 inline double apart(Assembly const& part, Formulation const& f, Assembly const& whole, Formulation const& g,
                     std::string const& field, std::size_t components) {
   auto const key = [](Point const& X) {

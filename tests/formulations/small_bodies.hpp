@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-/// Small bodies under JST-SPH, as tests build and watch them: through the face of Formulation only.
+/// Small bodies for tests of formulations, by default under JST-SPH. Tests use the interface Formulation only.
 namespace piola::testing {
 
 using Point = std::array<double, 3>;
@@ -49,19 +49,19 @@ inline void choose(Assembly& a, std::string const& key, double number) {
   for (auto& f : a.formulations) f.numbers[key] = number;
 }
 
-/// v0 = f(X)
+/// Sets the initial velocity f(X).
 template <class F>
 void give_velocity(Assembly& a, F const& f) {
   a.initial_velocity.clear();
   for (auto const& X : a.particles.X) a.initial_velocity.push_back(f(X));
 }
-/// Displacement f(X).
+/// Sets the initial displacement f(X).
 template <class F>
 void displace(Assembly& a, F const& f) {
   a.initial_displacement.clear();
   for (auto const& X : a.particles.X) a.initial_displacement.push_back(f(X));
 }
-/// Ids of the particles for which where(X).
+/// Ids of the particles with where(X).
 template <class F>
 std::vector<std::int64_t> select(Assembly const& a, F const& where) {
   std::vector<std::int64_t> chosen;
@@ -69,7 +69,7 @@ std::vector<std::int64_t> select(Assembly const& a, F const& where) {
     if (where(a.particles.X[static_cast<std::size_t>(id)])) chosen.push_back(id);
   return chosen;
 }
-/// Holds the components `fix` of the particles for which where(X).
+/// Adds a support that fixes the components `fix` of the particles with where(X).
 template <class F>
 Support& support(Assembly& a, std::array<bool, 3> fix, F const& where) {
   Support s;
@@ -81,7 +81,7 @@ Support& support(Assembly& a, std::array<bool, 3> fix, F const& where) {
 inline std::array<Expression, 3> formulas(std::array<std::string, 3> const& text) {
   return {Expression(text[0]), Expression(text[1]), Expression(text[2])};
 }
-/// Acceleration value(X, t) of the particles for which where(X).
+/// Adds a load: acceleration value(X, t) of the particles with where(X).
 template <class F>
 Load& load(Assembly& a, std::array<std::string, 3> const& value, F const& where) {
   Load l;
@@ -104,7 +104,7 @@ inline Values sample(Formulation const& f, std::string_view field, std::size_t p
   return {};
 }
 
-/// Why the formulation of an assembly is refused; "" if it is not.
+/// Message of the error that make_formulation() throws; "" if it throws none.
 inline std::string refusal(Assembly const& a) {
   try {
     (void)make_formulation(a);
@@ -114,12 +114,12 @@ inline std::string refusal(Assembly const& a) {
   return "";
 }
 
-/// n steps of dt.
+/// Advances by n steps of dt [s] from time 0.
 inline void advance(Formulation& f, double dt, int n) {
   for (int k = 0; k < n; ++k) f.step(k * dt, dt);
 }
 
-/// Steps of the length that the formulation asks for, from a time on; the time after them.
+/// Advances by `steps` stable steps from the time `from` [s]. Returns the time reached [s].
 inline double advance_by_itself(Formulation& f, double from, int steps) {
   double time = from;
   for (int k = 0; k < steps; ++k) {
@@ -130,7 +130,7 @@ inline double advance_by_itself(Formulation& f, double from, int steps) {
   return time;
 }
 
-/// By how much of itself the total energy changes in a time, taken in so many steps.
+/// Relative change of the total energy over `time` [s], in `steps` steps.
 inline double energy_change(Assembly const& a, double time, int steps) {
   auto const f = make_formulation(a);
   double const before = f->diagnose().total_energy();
@@ -150,7 +150,7 @@ inline double largest_difference(Values const& a, Values const& b) {
   return largest(d);
 }
 
-/// Instruction sets that this program has and this processor can run.
+/// Back ends that the program contains and this processor can run.
 inline std::vector<std::string> backends() {
   std::vector<std::string> r;
   for (auto names = jst_sph::backend_names(); *names != nullptr; ++names) r.push_back(*names);
@@ -176,7 +176,7 @@ inline SavedState saved(Formulation const& f) {
   return s;
 }
 
-/// The unit box that tumbles and stretches: everything that a step computes is busy.
+/// The unit box, tumbling and stretching, so that no term of a step vanishes.
 inline Assembly tumbling_box(int dimension, int n, double jitter = 0) {
   Assembly a = assemble(unit_box(dimension, n, jitter));
   give_velocity(a, [&](Point const& X) {

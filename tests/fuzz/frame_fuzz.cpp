@@ -43,7 +43,7 @@ void write_frame(fuzz::Choices& choices, std::filesystem::path const& path) {
 void draw(FrameReader const& frame) {
   auto const points = frame.positions();
   auto const body = frame.bodies();
-  auto const volume = frame.values("Volume"), stored = frame.values("Pressure");
+  auto const volume = frame.volumes(), stored = frame.values("Pressure");
   FieldInfo const info = frame.info("Pressure");
   auto const radii = ball_radii(std::vector<double>(volume.begin(), volume.end()), body, frame.dimension());
   auto const values = picture_values(std::vector<double>(stored.begin(), stored.end()), info.components);

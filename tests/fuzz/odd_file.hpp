@@ -12,8 +12,8 @@
 
 namespace piola::fuzz {
 
-/// The input of a target as a row of decisions: one character each, "0" is the ordinary choice and stands for all that
-/// follow the end, so that inputs can be read and written by people.
+/// Decodes the input of a fuzz target as a sequence of choices, one character each. "0" is the ordinary choice, also
+/// after the end of the input. People can read and write such inputs.
 class Choices {
  public:
   Choices(std::uint8_t const* data, std::size_t size) : data_(data), size_(size) {}
@@ -27,7 +27,7 @@ class Choices {
   std::size_t size_, at_ = 0;
 };
 
-/// A file in the folder for temporary files, the same for all inputs of a process; removed in the end.
+/// A temporary file with one path per process and name, reused for all inputs. The destructor removes it.
 class ScratchFile {
  public:
   explicit ScratchFile(std::string const& name)
@@ -50,8 +50,8 @@ class ScratchFile {
   std::filesystem::path path_;
 };
 
-/// Writes an HDF5 file in which each object is as it should be, or missing, or of another shape or type, as another
-/// program could write it. Identifiers that are not closed go with the file.
+/// Writes an HDF5 file with defects. Choices decide for each object whether it is correct, missing, or of another shape
+/// or type. Closing the file closes all remaining HDF5 identifiers (H5F_CLOSE_STRONG).
 class OddFile {
  public:
   OddFile(std::filesystem::path const& path, Choices& choices) : choices_(choices) {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-/// Meshes that tests write themselves, as bytes of files.
+/// Triangle meshes for tests, and their bytes as STL, OBJ and PLY files.
 namespace piola::testing {
 
 struct Shape {
@@ -52,7 +52,7 @@ inline Shape corner_tetrahedron() {
   return {{{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
 }
 
-/// An octahedron whose faces are cut into four `levels` times, corners on the unit sphere: 8 * 4^levels faces.
+/// The unit sphere as an octahedron refined `levels` times (each face into four): 8 * 4^levels faces.
 inline Shape round_ball(int levels) {
   Shape s{{{{1, 0, 0}}, {{-1, 0, 0}}, {{0, 1, 0}}, {{0, -1, 0}}, {{0, 0, 1}}, {{0, 0, -1}}},
           {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
@@ -76,7 +76,7 @@ inline Shape round_ball(int levels) {
   return s;
 }
 
-/// Radius 1, height 2, with `sides` flat sides.
+/// A prism along z with `sides` flat sides, circumscribed radius 1, height 2.
 inline Shape pillar(int sides) {
   Shape s{{{{0, 0, 0}}, {{0, 0, 2}}}, {}};
   for (int k = 0; k < sides; ++k) {
@@ -134,7 +134,7 @@ inline std::string ply_text(Shape const& s) {
   return text;
 }
 
-/// The solid of a shape, or null and problems.
+/// Solid of a shape, read back from its STL bytes. Null if `report` has errors.
 inline geometry::SolidPtr solid_of(Shape const& s, geometry::MeshReport& report,
                                    geometry::MeshOptions const& options = {}) {
   return geometry::mesh_from_bytes(stl_binary(s), "part.stl", options, report);

@@ -82,7 +82,7 @@ TEST(EnergyGuard, TakesTheWorkOfLoadsOff) {
   EXPECT_EQ(run(s).of.ending, RunStatus::failed);
 }
 
-/// Work and energy are booked within a step of each other.
+/// Work and energy may refer to times that differ by up to one step.
 TEST(EnergyGuard, ForgivesTheFirstStepsOfALoad) {
   Script s;
   s.kinetic = [](double t) { return t > 0.5 ? std::pow(t - 0.5 + 1e-3, 2) : 0; };
@@ -160,7 +160,8 @@ TEST(DissipationGuard, WarnsWithTheSharesOfItsParts) {
   EXPECT_TRUE(run(s).of.summary.warnings.empty());
 }
 
-/// Work and energy are booked within a step of each other: the first look at a load may miss most of it.
+/// Work and energy may refer to times that differ by up to one step: the first check under a load may miss most of its
+/// work.
 TEST(DissipationGuard, ForgivesTheFirstLooksAtALoad) {
   Script s;
   s.work = [](double t) { return t > 0.5 ? std::pow(t - 0.5 + 0.0003, 4) : 0; };

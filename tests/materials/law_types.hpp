@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
-/// The registered laws as types of a typed test, and their names.
+/// The registered laws as types of a GoogleTest typed test, and their names.
 namespace piola::inline PIOLA_BACKEND {
 
 template <class List>

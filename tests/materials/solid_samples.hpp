@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-/// Solids in rate form as types of a typed test, and metals made of them.
+/// Solids in rate form: combinations of strength and equation of state as types of a typed test, and sample parameters.
 namespace piola::inline PIOLA_BACKEND {
 
 template <class Strength, class Eos>
@@ -31,7 +31,7 @@ struct OneCase {
   using type = ::testing::Types<SolidCase<Strength, Eos>>;
 };
 template <class Strength>
-struct OneCase<Strength, JwlEos> {  // the gases of an explosive are not at rest
+struct OneCase<Strength, JwlEos> {  // detonation products are not in equilibrium at rest
   using type = ::testing::Types<>;
 };
 template <class Strength, class... Eos>
@@ -44,14 +44,14 @@ struct SolidCases<StrengthList<Strength...>> {
   using type = typename Joined<decltype(cases_of<Strength>(typename EquationsFor<Strength>::List{}))...>::type;
 };
 
-/// Parameters of a law by name; what is not given has its default, or zero.
+/// Parameters of a law by name. Parameters that are not given have their default, or zero.
 inline MaterialParameters parameters_by_name(std::string_view law_name, std::string_view eos, std::string_view damage,
                                              std::initializer_list<std::pair<std::string_view, double>> given) {
   LawInfo const law = *find_law(law_name);
   MaterialParameters material;
   material.law = law.index;
   if (!law.choices.empty()) material.word[0] = index_of(law.choices[0], eos);
-  // A law with a damage of its own has that alone.
+  // A law with a built-in damage model has no other choice of damage.
   if (law.choices.size() > 1) material.word[1] = std::max(0, index_of(law.choices[1], damage));
   for (std::size_t i = 0; i < law.parameters.size(); ++i) {
     Parameter const& p = law.parameters[i];
@@ -62,8 +62,8 @@ inline MaterialParameters parameters_by_name(std::string_view law_name, std::str
   return material;
 }
 
-/// The aluminium plate of section 3.3 of the paper on AdapTLE, with numbers of other laws beside its own, as any law
-/// with any equation of state.
+/// The aluminium plate of section 3.3 of the AdapTLE paper, for any law and equation of state. Parameters that the
+/// paper lacks have values of other materials.
 inline MaterialParameters sample_metal(std::string_view law, std::string_view eos, std::string_view damage = "none",
                                        double spall = unbounded) {
   return parameters_by_name(law, eos, damage,
@@ -116,7 +116,7 @@ inline MaterialParameters sample_metal(std::string_view law, std::string_view eo
                              {"spall_pressure", spall}});
 }
 
-/// A deviator of a given von Mises stress, not aligned with the axes.
+/// A stress deviator with the von Mises stress `mises` and all six components non-zero.
 inline SymMat<3> deviator_of(double mises) {
   SymMat<3> S{{0.7, -0.2, -0.5, 0.3, -0.4, 0.6}};
   double const scale = mises / von_mises(S);

@@ -117,8 +117,8 @@ TEST(JohnsonHolmquistStrength, HasTheValuesOfTheFormula) {
               (1 + 0.003 * std::log(1e5)) * 0.088 * std::pow(2, 0.35) * 4.545e9, 1);
   EXPECT_NEAR(s.yield_stress({.damage = 0.25}, 0, 5.84e9),
               0.75 * s.yield_stress({}, 0, 5.84e9) + 0.25 * s.yield_stress({.damage = 1}, 0, 5.84e9), 1);
-  EXPECT_EQ(s.yield_stress({.damage = 1}, 0, -1e6), 0);  // broken glass bears nothing in tension
-  EXPECT_EQ(s.yield_stress({}, 0, -0.151e9), 0);         // nor any beyond T
+  EXPECT_EQ(s.yield_stress({.damage = 1}, 0, -1e6), 0);  // fully damaged glass carries no tension
+  EXPECT_EQ(s.yield_stress({}, 0, -0.151e9), 0);         // intact glass carries none beyond T
   EXPECT_EQ(s.yield_stress({.damage = 1}, 0, 1e15), 0.5 * 4.545e9);
 }
 

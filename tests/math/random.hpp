@@ -4,13 +4,13 @@
 #include <cmath>
 #include <random>
 
-/// Random tensors for tests: the same on every machine, because the generator's bits are used directly.
+/// Random tensors for tests. They are equal on every computer, as no standard distribution is used.
 namespace piola::testing {
 
 class Random {
  public:
   explicit Random(std::uint32_t seed) : bits_(seed) {}
-  /// Evenly distributed in [low, high).
+  /// Uniformly distributed in [low, high).
   double in(double low, double high) { return low + (high - low) * static_cast<double>(bits_()) / 4294967296.0; }
   Vec<3> vector(double size) { return {{in(-size, size), in(-size, size), in(-size, size)}}; }
   Mat<3> matrix(double size) {

@@ -104,7 +104,7 @@ TEST(Probe, LooksAtItsShareAlone) {
   s.at = {2.2, 2.9, 0};
   EXPECT_EQ(of_share(s)[1], 3);
   s.at = {0, 0, 0};
-  EXPECT_EQ(of_share(s)[1], 0);  // somebody else's
+  EXPECT_EQ(of_share(s)[1], 0);  // the nearest particle is on another rank
 }
 
 TEST(Probe, ExtremaDoNotDependOnTheOrder) {

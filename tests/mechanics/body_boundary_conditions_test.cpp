@@ -88,7 +88,7 @@ TEST(BodyBoundary, AddsUpLoadsAtBothEndsAndTheirImpulses) {
   EXPECT_EQ(work.value(), 7) << "passes find the work";
   Resultants actions({}, {dead, named}, {});
   boundary.add_resultants_to(actions);
-  EXPECT_EQ(actions.loads[0].linear[0], 0) << "without a name nobody asks";
+  EXPECT_EQ(actions.loads[0].linear[0], 0) << "loads without a name are not reported";
   EXPECT_EQ(actions.loads[1].linear[1], 10 * (6 + 18));  // m dt/2 (a + a')
   EXPECT_EQ(actions.loads[1].angular[2], 10 * (1 * 6 + 2 * 18));
   boundary.reset_impulses();

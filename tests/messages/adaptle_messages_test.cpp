@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user is told about settings of AdapTLE that cannot be, word for word.
+// Messages about invalid settings of AdapTLE, word for word.
 #include "formulations/small_bodies.hpp"
 #include "materials/solid_samples.hpp"
 #include "support/sample_case.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user is told about bad supports, loads and mirrors, word for word.
+// Messages about invalid supports, loads and mirrors, word for word.
 #include "support/sample_case.hpp"
 #include <gtest/gtest.h>
 

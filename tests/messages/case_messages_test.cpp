@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user is reported about a bad case, word for word.
+// Messages about an invalid case file, word for word.
 #include "support/sample_case.hpp"
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user is told about bad rigid shapes, contact rules and round bodies, word for word.
+// Messages about invalid rigid shapes, contact rules and round bodies, word for word.
 #include "piola/formulations/registry.hpp"
 #include "support/sample_case.hpp"
 #include <gtest/gtest.h>
@@ -114,7 +114,7 @@ TEST(ContactMessages, BodiesThatMeetShareTheirMirrors) {
           mirror("a", "-x") + mirror("b", "-x") +
               "[[rigid]]\nname = \"stone\"\nmotion = \"free\"\nmass = 1\nsphere = { centre = [0.5, 50], radius = 1 "
               "}\n")
-          .find("the free rigid shape \"stone\" meets body \"a\", which has mirror planes"),
+          .find("the free rigid shape \"stone\" can touch body \"a\", which has mirror planes"),
       std::string::npos);
 }
 

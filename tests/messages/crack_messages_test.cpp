@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user is told about bad cracks and about what looks at them, word for word.
+// Messages about invalid cracks and about probes of cracks, word for word.
 #include "piola/formulations/registry.hpp"
 #include "support/sample_case.hpp"
 #include <gtest/gtest.h>

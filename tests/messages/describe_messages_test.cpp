@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `piola check` and `piola describe` say, by running the program.
+// Output of `piola check` and `piola describe`, by running the program.
 #include "support/places.hpp"
 #include "support/sample_case.hpp"
 #include "support/temporary_folder.hpp"
@@ -118,14 +118,14 @@ TEST(DescribeCommand, DescribesTheLibrary) {
   std::ifstream file(testing::source_folder() + "/docs/user/materials.md");
   std::string const page{std::istreambuf_iterator<char>(file), {}};
   EXPECT_EQ(ask("describe library --markdown").text, page)
-      << "write it anew: piola describe library --markdown > docs/user/materials.md";
+      << "write the page again: piola describe library --markdown > docs/user/materials.md";
 }
 
 TEST(DescribeCommand, WritesTheManualPageThatIsInTheManual) {
   std::ifstream file(testing::source_folder() + "/docs/user/case-reference.md");
   std::string const page{std::istreambuf_iterator<char>(file), {}};
   EXPECT_EQ(ask("describe --markdown").text, page)
-      << "write it anew: piola describe --markdown > docs/user/case-reference.md";
+      << "write the page again: piola describe --markdown > docs/user/case-reference.md";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person reads who gets words and numbers of a solid wrong.
+// Messages about invalid words and numbers of a solid.
 #include "support/sample_case.hpp"
 #include <gtest/gtest.h>
 

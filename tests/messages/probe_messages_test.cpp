@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user is told about probes that look at spacings, fragments, rims and holes, word for word.
+// Messages about invalid probes of spacings, fragments, rims and holes, word for word.
 #include "support/sample_case.hpp"
 #include <gtest/gtest.h>
 

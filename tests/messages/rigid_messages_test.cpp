@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user is told about rigid shapes that are free, or turn, word for word.
+// Messages about free and rotating rigid shapes, word for word.
 #include "support/sample_case.hpp"
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user is told about a shape that cannot be.
+// Messages about impossible shapes.
 #include "piola/model/read_case.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/setup/packed_bodies.hpp"

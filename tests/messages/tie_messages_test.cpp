@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user is reported about ties, word for word.
+// Messages about ties, word for word.
 #include "piola/model/case_particles.hpp"
 #include "piola/simulation/build.hpp"
 #include "support/sample_case.hpp"

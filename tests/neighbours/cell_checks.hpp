@@ -10,7 +10,7 @@
 #include <numeric>
 #include <set>
 
-/// What tests ask of cells and surfaces.
+/// Measures and checks of mesh cells and their surfaces.
 namespace piola::testing {
 
 inline Vec<3> vector(std::array<double, 3> const& x) { return {{x[0], x[1], x[2]}}; }
@@ -29,7 +29,7 @@ inline double smallest_volume(Cells const& cells, Points const& points) {
   return least;
 }
 
-/// Outward normal of a facet, as long as the facet is large.
+/// Outward normal of a facet; its length is the size of the facet [m^(dimension - 1)].
 inline Vec<3> facet_normal(Surface const& surface, Index facet, Points const& points) {
   auto const corner = [&](Index k) {
     return vector(at(points, surface.corner[static_cast<std::size_t>(facet * surface.dimension + k)]));
@@ -40,7 +40,7 @@ inline Vec<3> facet_normal(Surface const& surface, Index facet, Points const& po
   return 0.5 * cross(t, corner(2) - corner(0));
 }
 
-/// Length of the edge of a body, area of its surface.
+/// Size of a surface: perimeter in 2D [m], area in 3D [m^2].
 inline double surface_size(Surface const& surface, Points const& points) {
   double sum = 0;
   for (Index f = 0; f < surface.count(); ++f) {
@@ -50,7 +50,7 @@ inline double surface_size(Surface const& surface, Points const& points) {
   return sum;
 }
 
-/// The volume that a surface encloses (divergence of the position). Wrong where a normal points inwards or a facet is
+/// Volume enclosed by a surface, by the divergence theorem. It is wrong if a normal points inwards or a facet is
 /// missing.
 inline double enclosed_volume(Surface const& surface, Points const& points) {
   double sum = 0;
@@ -61,7 +61,7 @@ inline double enclosed_volume(Surface const& surface, Points const& points) {
   return sum;
 }
 
-/// Pieces of a surface: facets that hang together through their corners.
+/// Number of connected components of a surface; facets are connected if they share a corner.
 inline int pieces(Surface const& surface, Points const& points) {
   std::vector<std::size_t> root(points.size());
   std::iota(root.begin(), root.end(), std::size_t{0});
@@ -77,7 +77,7 @@ inline int pieces(Surface const& surface, Points const& points) {
   return static_cast<int>(found.size());
 }
 
-/// Cells are positive, fill what their surface encloses, and the surface has the size given.
+/// Expects positive cell volumes with the sum `volume`, which the surface also encloses, and the surface size given.
 inline void expect_filled(Cells const& cells, Points const& points, double volume, double surface_measure) {
   Surface const surface = surface_of(cells, points);
   EXPECT_GT(smallest_volume(cells, points), 0);
@@ -86,7 +86,7 @@ inline void expect_filled(Cells const& cells, Points const& points, double volum
   EXPECT_NEAR(surface_size(surface, points), surface_measure, 1e-9 * surface_measure);
 }
 
-/// The particles for which keep(X) is true; lattice positions stay.
+/// The particles with keep(X). They keep their lattice indices.
 template <class Keep>
 ParticleSet part_of(ParticleSet const& all, Keep const& keep) {
   ParticleSet set;
@@ -104,8 +104,8 @@ ParticleSet part_of(ParticleSet const& all, Keep const& keep) {
   return set;
 }
 
-/// Cuts a plate along y = crack.from[1]: the particles on the crack, but for its tips, get twins, which come last.
-/// `first_side`: the side of the particles that were there before.
+/// Cuts a plate along y = crack.from[1]. Each particle on the crack, except at its tips, gets a twin, appended at the
+/// end. `first_side`: side of the crack of the original particles.
 inline ParticleSet cut(ParticleSet set, Crack const& crack, std::int8_t first_side = 1) {
   constexpr double near = 1e-9;
   auto const [low, high] = std::minmax(crack.from[0], crack.to[0]);
@@ -128,7 +128,8 @@ inline ParticleSet cut(ParticleSet set, Crack const& crack, std::int8_t first_si
   return set;
 }
 
-/// Particles on the faces of a horizontal crack belong to cells on their own side only; returns how many corners.
+/// Expects that cells with a particle on a face of a horizontal crack lie on the side of that particle. Returns the
+/// number of cell corners on crack faces.
 inline int expect_no_cell_straddles(Cells const& cells, ParticleSet const& set, Crack const& crack) {
   double const direction = crack.to[0] > crack.from[0] ? 1 : -1;
   int corners = 0;

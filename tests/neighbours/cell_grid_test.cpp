@@ -88,7 +88,7 @@ TEST(CellGrid, OfNoPointsFindsNothing) {
   grid.visit({0, 0, 0}, [](Index) { ADD_FAILURE(); });
 }
 
-/// Points looked at for all places together: what the grid costs.
+/// Number of points that visit() tries for all `places`: the cost of the grid.
 std::size_t visits(CellGrid const& grid, Points const& places) {
   std::size_t count = 0;
   for (auto const& x : places) grid.visit(x, [&](Index) { ++count; });

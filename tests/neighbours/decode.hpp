@@ -7,7 +7,7 @@
 
 namespace piola::testing {
 
-/// A pair as a loop sees it, whichever table it came from.
+/// One pair as read by a loop, from the stencil table or the list table.
 struct SeenPair {
   Index b = 0;
   std::array<double, 3> r{}, sr{};
@@ -15,13 +15,13 @@ struct SeenPair {
   bool inner = false;
 };
 
-/// The pairs of a body, particle by particle, read back from the tables.
+/// All pairs of a body by slot, decoded from its pair tables and sorted by neighbour.
 struct SeenPairs {
   ParticleSet const* set;
   SlotOrder order;
   ReferencePairs pairs;
   std::vector<std::vector<SeenPair>> of;  ///< per slot
-  int padding = 0;                        ///< list entries that stand for no neighbour
+  int padding = 0;                        ///< number of list entries that are no neighbours
 
   SeenPairs(ParticleSet const& particles, PairOptions const& options, std::size_t body = 0)
       : set(&particles),
@@ -46,7 +46,7 @@ struct SeenPairs {
     auto const& alpha = c.alpha[at];
     return p.l + alpha[0] * p.r[0] + alpha[1] * p.r[1] + alpha[2] * p.r[2] + c.beta[at] * squared(p.r);
   }
-  /// GRAD f, one row.
+  /// Corrected gradient of a scalar f(X) at particle a.
   template <class F>
   std::array<double, 3> gradient(Index a, F const& f) const {
     std::array<double, 3> raw{}, out{};
@@ -109,7 +109,7 @@ struct SeenPairs {
   }
 };
 
-/// Supports in units of the spacing of a unit box with n particles per direction.
+/// Pair options of a unit box with n particles per direction. `gradient`, `laplacian`: support radii [spacings].
 inline PairOptions supports(int n, double gradient, double laplacian, int lanes = 1, bool stencils = true) {
   double const dx = 1.0 / (n - 1);
   return {find_kernel("cubic_spline"), gradient * dx, laplacian * dx, lanes, stencils};

@@ -60,7 +60,7 @@ TEST_P(RowWriterStores, RowsInOrderInASealedFile) {
 INSTANTIATE_TEST_SUITE_P(Rows, RowWriterStores,
                          ::testing::Values(Storage::contiguous, Storage::sequence, Storage::compressed));
 
-/// A file with this table alone; returns where it stands there.
+/// Writes a file with this table alone; returns the file offset of its values.
 std::uint64_t write(std::filesystem::path const& path, Table const& table) {
   hdf5::Writer file(path);
   CollectiveTableWriter rows(&file);

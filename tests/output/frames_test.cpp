@@ -148,6 +148,25 @@ TEST(Frames, OfThePreviousReleaseHaveFieldsOfPresentNames) {
   EXPECT_EQ(frame.values("CellJacobianMin").size(), 9U);
 }
 
+/// Springs beside a rigid shape that turns.
+class SpringsWithStone : public Springs {
+ public:
+  using Springs::Springs;
+  std::vector<RigidState> rigids() const override {
+    return {{.name = "stone", .centre = {1, 2, 3}, .turn = {0, 0, 0.1}}};
+  }
+};
+
+TEST(Frames, HoldThePosesOfShapesThatTurn) {
+  TemporaryFolder const folder;
+  FrameWriter writer(folder.path(), {}, true);
+  ParticleSet const set = testing::make_plate(3);
+  SpringsWithStone const springs(set);
+  FieldCache cache(springs, set);
+  writer.write(0, cache);
+  EXPECT_EQ(FrameReader(folder / "frames/000000.hdf").rigid_poses(), (std::vector<double>{1, 2, 3, 0, 0, 0.1}));
+}
+
 /// In a child, because the limit cannot be lifted again. Exit status 0: as it should be.
 int write_beyond_the_limit(std::filesystem::path const& folder) {
   std::signal(SIGXFSZ, SIG_IGN);

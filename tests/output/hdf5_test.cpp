@@ -216,7 +216,7 @@ std::string complaint_of_frame(std::filesystem::path const& folder, std::functio
   return complaint_of([&] {
     FrameReader const frame(path);
     frame.values("Pressure");
-    frame.values("Volume");
+    frame.volumes();
   });
 }
 

@@ -4,7 +4,8 @@
 
 namespace piola::testing {
 
-/// A box [0, 1]^dimension with n particles per direction on and between its faces; jitter moves the inner ones.
+/// The box [0, 1]^dimension with n particles per direction; the outer ones lie on the faces. Jitter moves inner
+/// particles.
 inline ParticleSet unit_box(int dimension, int n, double jitter = 0, std::uint32_t seed = 1) {
   ShapeSpec shape;
   shape.dimension = dimension;
@@ -19,7 +20,7 @@ inline ParticleSet unit_box(int dimension, int n, double jitter = 0, std::uint32
   return set;
 }
 
-/// A box from the origin with particles on its faces.
+/// A box from the origin to `size` [m]; the outer particles lie on its faces.
 inline ParticleSet box(std::array<double, 3> size, std::array<int, 3> particles, int dimension = 3) {
   ShapeSpec shape;
   shape.dimension = dimension;

@@ -185,8 +185,8 @@ TEST(Shapes, JitterIsANumberOfSplitMix64ForThePlaceInTheLatticeAndTheAxis) {
     }
 }
 
-/// Against theory: mean 0, mean square 1/3, no correlation with the next particle or the next axis; the bounds are four
-/// standard deviations of a sum of so many independent numbers.
+/// Compares with theory: mean 0, mean square 1/3, no correlation with the next particle or the next axis. The bounds
+/// are four standard deviations of a sum of n independent numbers.
 TEST(Shapes, JitterIsUniformAndWithoutCorrelation) {
   ShapeSpec shape = box({0, 0, 0}, {40, 40, 40}, {40, 40, 40});
   shape.placement = ShapeSpec::Placement::cell_centred;

@@ -65,7 +65,7 @@ TEST(RunCase, TheSummaryTellsWhereTheTimeWent) {
   EXPECT_EQ(text_of(folder / "history.csv").find("springs"), std::string::npos);
 }
 
-// What looks odd is told before the first step, and by a resumed run again.
+// Warnings of the case are reported before the first step, and by a resumed run again.
 TEST(RunCase, TellsTheWarningsOfTheCase) {
   struct Ear : Listener {
     std::vector<std::string> heard;

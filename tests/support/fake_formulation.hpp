@@ -9,7 +9,7 @@
 
 namespace piola::testing {
 
-/// A plate of n x n particles, unit spacing, in a set of one body called "plate".
+/// One body "plate" of n x n particles with unit spacing.
 inline ParticleSet make_plate(int n) {
   ParticleSet set;
   set.dimension = 2;
@@ -26,8 +26,8 @@ inline ParticleSet make_plate(int n) {
   return set;
 }
 
-/// Each particle on a spring of its own: u'' = -k u with unit mass, symplectic Euler with a step that wanders, so that
-/// a resumed run is right only if every number was restored.
+/// A formulation of independent oscillators: u'' = -k u with unit mass, by symplectic Euler. The step depends on a
+/// velocity, so a resumed run agrees only if every number was restored.
 class Springs : public Formulation {
  public:
   explicit Springs(ParticleSet const& set) : set_(set), u_(3 * set.X.size()), v_(3 * set.X.size()) {
@@ -96,7 +96,7 @@ class Springs : public Formulation {
 
   double stiffness = 4;
   static constexpr int never = 1 << 30;
-  int fail_at = never, collapse_at = never, stop_at = never, nan_at = never;  ///< numbers of steps
+  int fail_at = never, collapse_at = never, stop_at = never, nan_at = never;  ///< step at which this happens
   std::atomic<int>* stop = nullptr;
 
  private:
@@ -105,7 +105,7 @@ class Springs : public Formulation {
   int steps_ = 0;
 };
 
-/// A run of springs for one second, with output of all kinds.
+/// A simulation of Springs over 1 s with histories, frames and checkpoints.
 inline Simulation make_springs(int n = 4) {
   Simulation s;
   s.particles = make_plate(n);

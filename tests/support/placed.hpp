@@ -9,7 +9,7 @@ namespace piola::testing {
 
 using Places3 = std::vector<std::array<double, 3>>;
 
-/// A body called "plate" of as many particles as there are places, born on the x axis at 0, 1, 2 ... with unit volumes.
+/// One body "plate" of `count` particles with reference positions 0, 1, 2 ... on the x axis and unit volumes.
 inline ParticleSet make_row(std::size_t count, int dimension = 2) {
   ParticleSet set;
   set.dimension = dimension;
@@ -25,7 +25,7 @@ inline ParticleSet make_row(std::size_t count, int dimension = 2) {
   return set;
 }
 
-/// Particles at given places, with the velocity (Id, 2, -1).
+/// A formulation whose particles have the current positions `x` and the velocity (id, 2, -1).
 class Placed : public Springs {
  public:
   Placed(ParticleSet const& set, Places3 x) : Springs(set), set_(set), x_(std::move(x)) {}

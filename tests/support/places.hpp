@@ -2,8 +2,7 @@
 #pragma once
 #include <string>
 
-/// Where this build stands. In one file, so that the others are compiled alike wherever it does and the compiler cache
-/// knows them.
+/// Paths of this build. Only places.cpp contains them, so the compiler cache serves all other files in any folder.
 namespace piola::testing {
 
 std::string source_folder();  ///< the root of the repository

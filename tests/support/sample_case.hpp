@@ -7,7 +7,7 @@
 
 namespace piola::test {
 
-/// A small valid case; lines are numbered in the comments because messages name them.
+/// A small valid case. Messages of tests refer to its line numbers.
 inline std::string sample_case() {
   return R"toml(title = "Twisting column"
 [constants]
@@ -34,7 +34,7 @@ quantities = ["displacement_x", "pressure"]
 )toml";
 }
 
-/// The text with one part replaced; fails loudly if the part is not there.
+/// The text with the first occurrence of `from` replaced. Throws if there is none.
 inline std::string replaced(std::string text, std::string_view from, std::string_view to) {
   std::size_t const at = text.find(from);
   if (at == std::string::npos) throw std::logic_error("the sample has no " + std::string(from));
@@ -43,7 +43,7 @@ inline std::string replaced(std::string text, std::string_view from, std::string
 
 inline std::string sample_with(std::string_view from, std::string_view to) { return replaced(sample_case(), from, to); }
 
-/// The message for a bad case; "" if the case is good.
+/// Error message of a case; "" if it is valid.
 inline std::string message_of(std::string const& text, std::vector<std::string> const& overrides = {},
                               ReadLimits const& limits = {}) {
   try {

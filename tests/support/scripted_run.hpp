@@ -12,7 +12,7 @@ namespace piola::testing {
 
 using Point = std::array<double, 3>;
 
-/// A run as it is written down: everything is a formula of time, steps are 1 ms.
+/// A run with prescribed results: each quantity is a function of time. The default step is 1 ms.
 struct Script {
   std::function<double(double)> kinetic = [](double) { return 0.0; }, work = kinetic, loss = kinetic;
   std::function<Point(std::size_t, double)> displacement = [](std::size_t, double) { return Point{}; };

@@ -8,7 +8,7 @@
 
 namespace piola::testing {
 
-/// A new folder that is removed in the end.
+/// A new temporary folder. The destructor removes it with its contents.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -15,7 +15,7 @@ struct ContactCoupling {
 
 class SurfaceContact : public ::testing::TestWithParam<ContactCoupling> {
  protected:
-  /// Two blocks of different spacing that meet off their middles and turn each other.
+  /// Two blocks of different spacing in an off-centre collision, which makes both rotate.
   static Assembly blocks(double friction = 0) {
     Assembly a;
     add_block(a, GetParam().dimension, GetParam().left, {-1.02, 0, 0}, 4, 0.25);
@@ -24,7 +24,7 @@ class SurfaceContact : public ::testing::TestWithParam<ContactCoupling> {
     give_velocity(a, [](Point const& X) { return X[0] < -0.01 ? Point{4, 0.5, 0} : Point{-3, 0, 0}; });
     return a;
   }
-  /// taylor_sph damps waves of a few spacings, and its books hold only a part of that.
+  /// Whether columns contain all dissipation. taylor_sph damps waves of a few spacings and reports only a part of that.
   static bool books_all() { return GetParam().left != "taylor_sph" || GetParam().right != "taylor_sph"; }
   /// Steps of the formulation's own choice.
   static double run(Formulation& f, double& time, int steps) {
@@ -158,7 +158,7 @@ INSTANTIATE_TEST_SUITE_P(Pairs, SurfaceContact,
                                            ContactCoupling{"eulerian_taylor_3d", "eulerian", "taylor_sph", 3}),
                          [](auto const& at) { return at.param.name; });
 
-/// Two blocks that meet face to face, rub and spread, whole or cut along y = 0.
+/// Two blocks that collide face to face, slide with friction and spread: whole, or the half y > 0.
 Assembly symmetric_blocks(std::string const& formulation, int dimension, bool half) {
   Assembly a;
   double const low[2] = {half ? 0.0 : -1.0, half ? 0.0 : -0.75};

@@ -8,7 +8,7 @@ using namespace testing;
 
 double energy_totals(Diagnostics const& d) { return d.total_energy() + d.stabilisation_loss + d.projection_loss; }
 
-/// What is missing in the books after 8 ms in n steps, relative to the initial energy.
+/// Energy that is unaccounted for after 8 ms in n steps, relative to the initial energy.
 double defect(Assembly const& a, int n) {
   auto const f = make_formulation(a);
   double const before = energy_totals(f->diagnose());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "verification/surface_bodies.hpp"
 
-/// Everything that acts between bodies in one run: friction, contact of bodies with themselves, free rigid shapes that
-/// meet, ties that hold and ties that fail, of bodies and of a rigid shape, two formulations, unequal spacings, 3D.
+/// All interactions between bodies in one run, in 3D with two formulations and unequal spacings: friction,
+/// self-contact, contact of free rigid shapes, ties of bodies and of a rigid shape that hold or fail.
 namespace piola {
 namespace {
 
@@ -23,8 +23,8 @@ RigidShape stone(std::string const& name, Kind kind, Point const& centre, std::a
   return s;
 }
 
-/// Three blocks in a row, the first two tied, which run into the third; a plate tied under the first, a ball that falls
-/// on the second, and one that meets that ball.
+/// Three blocks in a row: the first two are tied and run into the third. A plate is tied under the first block, a ball
+/// falls on the second one, and another ball hits that ball.
 Assembly everything() {
   Assembly a;
   add_block(a, 3, "nodal", {-1, 0, 0}, 5, 0.2);

@@ -82,7 +82,7 @@ class Tension : public Statics {};
 INSTANTIATE_TEST_SUITE_P(All, Tension, ::testing::Values("jst_sph", "taylor_sph"),
                          [](auto const& test) { return test.param; });
 
-// Plane strain: u = T (1 - nu^2) / E at the pulled face, and the roller there bears all of the traction.
+// Plane strain: u = T (1 - nu^2) / E at the pulled face, and the roller there carries all of the traction.
 TEST_P(Tension, ABlockUnderTensionIsStretchedAsElasticityHasIt) {
   Assembly a = box_on_rollers(GetParam(), 2, 7);
   pull(a, 2, 7);

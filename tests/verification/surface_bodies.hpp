@@ -4,11 +4,11 @@
 #include "formulations/small_bodies.hpp"
 #include "materials/solid_samples.hpp"
 
-/// Blocks with a surface, of any formulation, for tests of what acts between bodies.
+/// Blocks with contact surfaces, of any formulation, for tests of interactions between bodies.
 namespace piola::testing {
 
-/// A square or cube of n particles a side, of rubber, or of an elastic metal under total-Lagrangian adaptle; "eulerian"
-/// is adaptle without a surface.
+/// Adds a square or cube with n particles per side. Material: rubber, or an elastic metal under adaptle. `formulation`
+/// "adaptle" is total Lagrangian with a surface; "eulerian" is adaptle with Eulerian particles and no surface.
 inline void add_block(Assembly& a, int dimension, std::string const& formulation, std::array<double, 3> const& min,
                       int n, double spacing) {
   ShapeSpec shape;
@@ -24,7 +24,7 @@ inline void add_block(Assembly& a, int dimension, std::string const& formulation
   bool const linear = formulation == "taylor_sph";
   a.materials.push_back(solid ? sample_metal("elastic", "elastic") : rubber(linear ? "linear_elastic" : "neo_hookean"));
   a.formulations.push_back({solid ? "adaptle" : formulation, {}, {}});
-  // The form of the viscosity that keeps angular momentum.
+  // The central form of the viscosity conserves angular momentum.
   if (solid) a.formulations.back().words = {{"description", "total_lagrangian"}, {"viscosity_form", "central"}};
   if (is_eulerian) a.formulations.back().words = {{"description", "eulerian"}};
   a.surfaces.push_back(contact_surface(shape, a.particles, a.particles.bodies.back()));
@@ -39,7 +39,7 @@ inline double column(Diagnostics const& d, std::string_view name) {
   return 0;
 }
 
-/// What go(f, time) leaves of a formulation built anew is the same bit for bit on any number of threads.
+/// Expects that a new formulation has the same state, bit for bit, after go(f, time) on any number of threads.
 template <class Go>
 void expect_same_on_threads(Assembly const& a, Go const& go) {
   std::map<std::string, Values, std::less<>> first;
@@ -54,8 +54,8 @@ void expect_same_on_threads(Assembly const& a, Go const& go) {
   }
 }
 
-/// What a formulation does from now on, and what one does that is built anew and takes its state, are the same bit for
-/// bit. go(f, time) takes both on.
+/// Expects that a new formulation that loads the state of `whole` continues like `whole`, bit for bit. go(f, time)
+/// advances both.
 template <class Go>
 void expect_resumes(Assembly const& a, Formulation& whole, double time, Go const& go) {
   SavedState state = saved(whole);

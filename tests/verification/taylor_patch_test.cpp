@@ -175,7 +175,7 @@ TEST(TaylorHourglassFilter, DoesNotTouchALinearVelocity) {
   }
 }
 
-/// Of a checkerboard each step takes the share that the filter is told, and the energy that goes with it.
+/// Each step removes the fraction `hourglass_filter` of a checkerboard velocity, and the energy of that fraction.
 TEST(TaylorHourglassFilter, TakesItsShareOfACheckerboard) {
   Assembly a = assemble_taylor(unit_box(2, 9));
   choose(a, "configuration", "fixed");

@@ -146,12 +146,12 @@ TEST(Verify, MeasuresOrdersAcrossVariants) {
 }
 
 TEST(Verify, MeasuresRatiosAcrossVariants) {
-  std::vector<VariantRun> const runs{run_with("new", "oscillation", 0.02), run_with("printed", "oscillation", 0.09)};
+  std::vector<VariantRun> const runs{run_with("new", "oscillation", 0.02), run_with("published", "oscillation", 0.09)};
   Check c = check_of("new", "oscillation", "0.25", 0, Check::Kind::below);
   c.as = Check::Comparison::ratio;
-  c.relative_to = "printed";
+  c.relative_to = "published";
   auto const rows = compare("c", {c}, runs);
-  EXPECT_EQ(rows.at(0).quantity, "oscillation, ratio to printed");
+  EXPECT_EQ(rows.at(0).quantity, "oscillation, ratio to published");
   EXPECT_NEAR(*rows.at(0).measured, 0.02 / 0.09, 1e-12);
   EXPECT_TRUE(rows.at(0).accepted);
 }
@@ -445,15 +445,15 @@ TEST(Verify, DividesTheErrorsOfTwoRuns) {
   Check c = check_of("new", "", "0.1", 0.01);
   c.as = Check::Comparison::field_error;
   c.relative_to = "fine";
-  c.beside = "printed";
+  c.beside = "published";
   c.field = "Pressure";
   c.time = 0.5;
-  auto const row = compare("c", {c}, {run("new", 4.1), run("printed", 5), run("fine", 4)}).at(0);
-  EXPECT_EQ(row.quantity, "Pressure at 500 ms, error against fine, by that of printed");
+  auto const row = compare("c", {c}, {run("new", 4.1), run("published", 5), run("fine", 4)}).at(0);
+  EXPECT_EQ(row.quantity, "Pressure at 500 ms, error against fine, by that of published");
   EXPECT_NEAR(row.measured.value_or(0), 0.1, 1e-12);  // 0.1/4 by 1/4
   EXPECT_TRUE(row.accepted);
   EXPECT_TRUE(compare("c", {c}, {run("new", 4.1), run("fine", 4)}).empty());
-  EXPECT_FALSE(compare("c", {c}, {run("new", 4.1), run("printed", 4), run("fine", 4)}).at(0).accepted);
+  EXPECT_FALSE(compare("c", {c}, {run("new", 4.1), run("published", 4), run("fine", 4)}).at(0).accepted);
 }
 
 TEST(FindCases, NamesTheCasesThereAre) {

@@ -278,7 +278,7 @@ RankError agree(RankError const& own) { return *agree_within(std::numeric_limits
 
 std::optional<RankError> agree_within(double seconds, RankError const& own) {
   if (!is_parallel()) return own;
-  // Kept alive: a rank that gives up leaves the request behind and ends all.
+  // Static: a rank that times out leaves the request pending, and MPI may write to its buffer until the process ends.
   static int lowest;
   lowest = own.code != 0 ? world.own : world.count;
   MPI_Request request;

@@ -31,7 +31,7 @@ Plan plan_of(CaseSpec const& spec) {
   OutputSpec const& o = spec.output;
   auto const times = [&](double every) { return every > 0 ? std::floor(spec.run.end / every) + 1 : 0; };
   double const frames = times(o.frames_every), pictures = times(o.pictures.every);
-  // Every picture has a frame, which may also be one of the others.
+  // Every picture needs a frame, which may coincide with one of the regular frames.
   double const ratio = frames > pictures ? o.pictures.every / o.frames_every : o.frames_every / o.pictures.every;
   bool const coincide = frames == 0 || pictures == 0 || std::abs(ratio - std::round(ratio)) < 1e-9 * ratio;
   return {o.history_every > 0 ? times(o.history_every) : 501,

@@ -169,9 +169,9 @@ class Formulation {
   /// Samples one field: values[id * components + c]. Ranks other than 0 pass an empty span.
   virtual void sample(std::string_view field, std::span<double> values) const = 0;
   /// Ids of the particles that this rank evaluates for observers: each particle is on exactly one rank. Valid until the
-  /// next repartition (recuts()). Empty: all particles, in Id order.
+  /// next repartition. Empty: all particles, in Id order.
   virtual std::optional<std::vector<std::int64_t>> local_particles() const;
-  /// Samples one field of the particles owned(): values[k * components + c] for the k-th. Collective.
+  /// Samples one field of local_particles(): values[k * components + c] for the k-th. Collective.
   virtual void sample_local(std::string_view field, std::span<double> values) const { sample(field, values); }
 
   virtual void save(StateWriter& writer) const = 0;

@@ -30,7 +30,7 @@ void check_bodies(CaseSpec const& spec, RigidSpec const& rigid, Problems& proble
                      (any ? "; or say law = \"none\" in [[contact]] between them, for no contact" : ""));
   if (!spec.mirrors.empty())
     problems.add(place_of(rigid.places, "motion"),
-                 shape_words(rigid) + " meets body " + in_quotes(spec.mirrors.front().body) +
+                 shape_words(rigid) + " can touch body " + in_quotes(spec.mirrors.front().body) +
                      ", which has mirror planes (allowed: rigid shapes that are fixed or driven without turning: what "
                      "is behind the planes would push it, too) - model the whole, or change the motion");
   auto const named = std::find_if(spec.bodies.begin(), spec.bodies.end(),

@@ -57,7 +57,9 @@ std::vector<std::array<double, 3>> FrameReader::positions() const {
   return x;
 }
 
-std::vector<int> FrameReader::bodies() const { return rows<std::int32_t>("Body"); }
+std::vector<int> FrameReader::bodies() const { return rows<std::int32_t>("Body", 1); }
+
+std::vector<float> FrameReader::volumes() const { return rows<float>(source_of("Volume"), 1); }
 
 std::vector<double> FrameReader::rigid_poses() const {
   return file_->reader.has(rigid_poses_name) ? file_->reader.dataset<double>(rigid_poses_name, 6)
@@ -84,8 +86,7 @@ std::string FrameReader::source_of(std::string const& field) const {
 }
 
 template <class T>
-std::vector<T> FrameReader::rows(std::string const& field) const {
-  std::uint64_t const columns = components_in(file_->reader, field);
+std::vector<T> FrameReader::rows(std::string const& field, std::uint64_t columns) const {
   auto values = file_->reader.dataset<T>(data_of(file_->reader, field), columns);
   if (values.size() != particles_ * columns) file_->reader.fail(field, "has not one value per point");
   return values;
@@ -103,9 +104,10 @@ FieldInfo FrameReader::info(std::string const& field) const {
 
 std::vector<float> FrameReader::values(std::string const& field) const {
   std::string const source = source_of(field);
-  if (source == field) return rows<float>(field);
+  std::uint64_t const columns = components_in(file_->reader, source);
+  if (source == field) return rows<float>(field, columns);
   DerivedField const& derived = *find_derived(field);
-  auto const from = rows<double>(source);
+  auto const from = rows<double>(source, columns);
   std::vector<double> out(particles_ * static_cast<std::size_t>(components_of(derived)));
   derive(derived, from, out);
   return {out.begin(), out.end()};

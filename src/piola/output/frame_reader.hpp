@@ -23,6 +23,7 @@ class FrameReader {
   std::vector<float> points() const;                     ///< m, three per particle
   std::vector<std::array<double, 3>> positions() const;  ///< m, points() as doubles
   std::vector<int> bodies() const;                       ///< number of the body of each particle
+  std::vector<float> volumes() const;                    ///< tributary volume of each particle [m^dimension]
   /// Centre [m] and rotation vector since the start [rad] of each free or rotating rigid shape, in the order of the
   /// case: six numbers each.
   std::vector<double> rigid_poses() const;
@@ -37,7 +38,7 @@ class FrameReader {
  private:
   std::string source_of(std::string const& field) const;
   template <class T>
-  std::vector<T> rows(std::string const& field) const;
+  std::vector<T> rows(std::string const& field, std::uint64_t columns) const;
   struct File;
   std::unique_ptr<File> file_;
   double time_ = 0;

@@ -94,6 +94,11 @@ std::vector<RigidShape> shapes_at(std::vector<RigidSpec> const& rigids, double t
   return shapes;
 }
 
+std::span<PictureSpec const> panels_of(PicturesSpec const& pictures) {
+  if (pictures.panels.empty()) return {static_cast<PictureSpec const*>(&pictures), 1};
+  return pictures.panels;
+}
+
 Representation representation_of(std::string_view word) {
   auto const found = std::find(representation_words.begin(), representation_words.end(), word);
   if (found == representation_words.end()) return Representation::automatic;

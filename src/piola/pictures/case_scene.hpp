@@ -20,6 +20,9 @@ Up upwards(CaseSpec const& spec);
 std::vector<RigidShape> shapes_at(std::vector<RigidSpec> const& rigids, double time,
                                   std::span<double const> poses = {});
 
+/// The panels of a case, or its picture alone.
+std::span<PictureSpec const> panels_of(PicturesSpec const& pictures);
+
 /// The representation of a word of representation_words.
 Representation representation_of(std::string_view word);
 
@@ -46,7 +49,7 @@ std::vector<std::vector<Index>> current_torn_cells(std::span<ReferenceMesh const
 /// none.
 std::vector<std::uint8_t> loose_particles(std::span<double const> damage, std::span<double const> kernel_type,
                                           std::size_t particles);
-/// The same for the particles of a frame.
+/// Per particle of a frame: whether it has permanently lost its neighbours.
 std::vector<std::uint8_t> loose_particles(FrameReader const& frame);
 
 }  // namespace piola

@@ -5,13 +5,13 @@
 #include "piola/output/atomic_file.hpp"
 #include "piola/output/summary.hpp"
 #include "piola/pictures/case_scene.hpp"
-#include "piola/pictures/panel_pictures.hpp"
 #include "piola/pictures/picture_overrides.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace piola {
 namespace {
@@ -32,6 +32,90 @@ int component_of(PictureSpec const& spec, int components) {
   throw InputError(fmt::format("--component: {} has no component '{}' ({}) - choose one of these, or leave it out",
                                spec.field, spec.component,
                                known.empty() ? "it has none" : fmt::format("allowed: {}", fmt::join(known, ", "))));
+}
+
+/// One panel of a picture, ready to be drawn.
+struct PanelPicture {
+  PictureData data;
+  PictureStyle style;
+  Window window;  ///< equal size for all panels
+};
+
+/// The label of a panel: its caption, else its view if that has a name.
+std::string caption_of(PictureSpec const& panel) {
+  if (!panel.caption.empty()) return panel.caption;
+  bool const from_an_end = !panel.named_view.empty() && !panel.named_view.starts_with("iso");
+  return from_an_end ? "from " + panel.named_view : "";
+}
+
+/// Whether panels can share one colour bar: equal field, component, range and colours.
+bool one_bar(std::span<PictureSpec const> panels) {
+  return std::all_of(panels.begin(), panels.end(), [&](PictureSpec const& one) {
+    PictureSpec const& first = panels.front();
+    return one.field == first.field && one.component == first.component && one.range == first.range &&
+           one.map == first.map;
+  });
+}
+
+/// Enlarges windows to equal size, so that panels have one scale.
+void give_one_size(std::span<Window> windows) {
+  double wide = 0, high = 0;
+  for (Window const& one : windows) {
+    wide = std::max(wide, one.x1 - one.x0);
+    high = std::max(high, one.y1 - one.y0);
+  }
+  for (Window& one : windows) {
+    double const more_x = (wide - (one.x1 - one.x0)) / 2, more_y = (high - (one.y1 - one.y0)) / 2;
+    one.x0 -= more_x;
+    one.x1 += more_x;
+    one.y0 -= more_y;
+    one.y1 += more_y;
+  }
+}
+
+int scaled(int side, double scale) { return 2 * std::max(1, static_cast<int>(std::lround(scale * side / 2))); }
+
+/// Draws panels with one colour bar, in the size of the picture or, without one, a fitting size.
+Image draw_sheet(std::span<Panel const> panels, Sheet const& sheet, PictureSpec const& picture, Window const& all,
+                 PictureStyle style) {
+  if (picture.width <= 0 || picture.height <= 0) {
+    auto const size = fitting_size(all, panels.size(), sheet.columns);
+    style.width = scaled(size[0], picture.scale);
+    style.height = scaled(size[1], picture.scale);
+  }
+  return draw_panels(panels, sheet, style);
+}
+
+/// Adjacent pictures, each with its own bar; a caption replaces the title.
+Image each_with_its_bar(std::span<PanelPicture const> panels, PicturesSpec const& pictures, int columns) {
+  std::vector<Image> images;
+  auto const rows =
+      static_cast<int>((panels.size() + static_cast<std::size_t>(columns) - 1) / static_cast<std::size_t>(columns));
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    PanelPicture panel = panels[k];
+    if (std::string const caption = caption_of(pictures.panels[k]); !caption.empty()) panel.data.title = caption;
+    if (pictures.width > 0 && pictures.height > 0) {
+      panel.style.width = std::max(1, pictures.width / columns);
+      panel.style.height = std::max(1, pictures.height / rows);
+    }
+    images.push_back(draw_picture(panel.data, panel.style, panel.window));
+  }
+  return tiled(images, columns);
+}
+
+/// Combines panels in one picture: below one title with one bar if possible, else as adjacent pictures. `all`: the
+/// window of the whole run.
+Image draw_together(std::span<PanelPicture const> panels, PicturesSpec const& pictures, Window const& all) {
+  PanelPicture const& first = panels.front();
+  if (pictures.panels.empty()) return draw_picture(first.data, first.style, first.window);
+  int const columns = pictures.columns > 0 ? std::min(pictures.columns, static_cast<int>(panels.size()))
+                                           : fitting_columns(all, panels.size());
+  if (!one_bar(pictures.panels)) return each_with_its_bar(panels, pictures, columns);
+  std::vector<Panel> sheet;
+  for (std::size_t k = 0; k < panels.size(); ++k)
+    sheet.push_back({panels[k].data, panels[k].window, caption_of(pictures.panels[k]), &panels[k].style});
+  std::string const time = "t = " + first.data.time_format->text(first.data.time);
+  return draw_sheet(sheet, {first.data.title, time, columns}, pictures, all, first.style);
 }
 
 }  // namespace
@@ -76,7 +160,7 @@ Shot FramePictures::read(std::filesystem::path const& path) const {
             .loose = loose_particles(frame),
             .shapes = shapes_at(run_.spec.rigids, frame.time(), frame.rigid_poses())};
   shot.of_case = shot.dimension == particles.dimension && shot.body == particles.body.seen();
-  auto const stored = frame.values("Volume");
+  auto const stored = frame.volumes();
   shot.volume.assign(stored.begin(), stored.end());
   if (shot.of_case) shot.volume = particles.volume.seen();
   shot.radii = ball_radii(shot.volume, shot.body, shot.dimension);
@@ -134,8 +218,11 @@ TimeFormat FramePictures::time_format() const {
 
 std::string FramePictures::name(std::size_t k) const {
   PanelView const& first = views_.front();
-  std::string const name = picture_name(first.spec.field, first.field.components, first.component, frames_[k].number);
-  return with_other_fields(name, panels_of(run_.spec.output.pictures));
+  std::string name = picture_name(first.spec.field, first.field.components, first.component, frames_[k].number);
+  std::set<std::string> known{first.spec.field};
+  for (PanelView const& view : views_)
+    if (known.insert(view.spec.field).second) name.insert(name.rfind('-'), "-" + view.spec.field);
+  return name;
 }
 
 std::string FramePictures::name_of_times() const {

@@ -62,7 +62,7 @@ class FramePictures {
   std::size_t nearest(double time) const;
   TimeFormat time_format() const;
   std::string const& title() const { return run_.spec.title; }
-  /// "Pressure-000012.png" with the number of the picture.
+  /// "Pressure-000012.png" with the number of the picture, "Pressure-Damage-000012.png" of panels with several fields.
   std::string name(std::size_t k) const;
   Image picture(std::size_t k) const;
   /// The first panel of frames as one picture with one bar: frame `frames[n]` of the run `*runs[n]`. Scale, view and

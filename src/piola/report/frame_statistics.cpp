@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/frame_statistics.hpp"
 #include "piola/base/errors.hpp"
-#include "piola/base/text.hpp"
 #include "piola/drawing/picture.hpp"
 #include "piola/formulations/field_signs.hpp"
 #include <algorithm>
@@ -77,10 +76,11 @@ std::array<double, 2> ends_of_axis(Extent& extent) {
 }
 
 void read_bodies(FrameReader const& frame, FrameStatistics& survey) {
-  auto const body = frame.values("Body"), volume = frame.values("Volume");
+  auto const body = frame.bodies();
+  auto const volume = frame.volumes();
   std::vector<double> largest;
-  for (std::size_t i = 0; i < body.size() && i < volume.size(); ++i) {
-    auto const b = static_cast<std::size_t>(std::clamp<double>(static_cast<double>(body[i]), 0, most_bodies - 1));
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    auto const b = static_cast<std::size_t>(std::clamp<double>(body[i], 0, most_bodies - 1));
     survey.body.push_back(static_cast<std::uint16_t>(b));
     if (b >= largest.size()) largest.resize(b + 1);
     largest[b] = std::max(largest[b], static_cast<double>(volume[i]));
@@ -95,23 +95,11 @@ std::string label_of(FieldInfo const& info) {
 }
 
 /// Begins a survey with the data of the first frame. Throws InputError for fields that it does not have.
-FrameStatistics begin(FrameReader const& first, std::vector<std::string> const& fields,
-                      std::filesystem::path const& path) {
-  FrameStatistics survey{.dimension = first.dimension()};
-  auto const known = first.fields();
-  Problems problems;
-  for (std::string const& name : fields) {
-    if (first.knows(name))
-      survey.fields.push_back({first.info(name), label_of(first.info(name)), {}, {}});
-    else
-      problems.add({path.string()}, fmt::format("has no field {} (known: {}) - {}", in_quotes(name), joined(known),
-                                                advice_for_name(name, known)));
-  }
-  problems.raise_if_any();
-  survey.particles = first.points().size() / 3;
+FrameStatistics begin(FrameReader const& first, std::vector<std::string> const& fields) {
+  FrameStatistics survey{.dimension = first.dimension(), .particles = first.particles()};
+  for (std::string const& name : fields)
+    survey.fields.push_back({first.info(name), label_of(first.info(name)), {}, {}});
   read_bodies(first, survey);
-  if (survey.body.size() != survey.particles)
-    throw FileError(fmt::format("{}: has not one body and volume per particle - the file is damaged", path.string()));
   return survey;
 }
 
@@ -176,8 +164,7 @@ std::vector<float> shown_values(FrameReader const& frame, FieldInfo const& info)
 
 FrameStatistics survey_frames(RunFolder const& run, std::vector<std::size_t> const& frames,
                               std::vector<std::string> const& fields) {
-  FrameStatistics survey =
-      begin(FrameReader(run.frames[frames.front()].second), fields, run.frames[frames.front()].second);
+  FrameStatistics survey = begin(FrameReader(run.frames[frames.front()].second), fields);
   survey.frames = frames;
   std::vector<Extent> axes(3, Extent(frames.size())), ranges(fields.size(), Extent(frames.size()));
   for (std::size_t const k : frames) {
@@ -195,9 +182,6 @@ FrameStatistics survey_frames(RunFolder const& run, std::vector<std::size_t> con
     }
     for (std::size_t f = 0; f < fields.size(); ++f) {
       auto const values = shown_values(frame, survey.fields[f].info);
-      if (values.size() != survey.particles)
-        throw FileError(fmt::format("{}: {} has not one value per particle - the file is damaged",
-                                    run.frames[k].second.string(), fields[f]));
       survey.fields[f].extremes.push_back(
           ranges[f].include(values.size(), [&](std::size_t i) { return static_cast<double>(values[i]); }));
     }

@@ -38,7 +38,7 @@ CloudTable read_cloud_frame(std::string const& path, CloudOptions const& options
     problems.push_back(path + ": is a frame, whose lengths are in m, and the case gives a unit for it - leave it out");
   try {
     FrameReader const frame(path);
-    auto const volume = frame.values("Volume");
+    auto const volume = frame.volumes();
     auto body = frame.bodies();
     table.dimension = frame.dimension();
     table.X = frame.positions();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/picture_observer.hpp"
 #include "piola/output/atomic_file.hpp"
-#include "piola/pictures/panel_pictures.hpp"
+#include "piola/pictures/case_scene.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 

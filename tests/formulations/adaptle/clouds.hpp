@@ -7,7 +7,7 @@
 #include <functional>
 #include <memory>
 
-/// Bodies of AdapTLE, through its particles: tests may write any state and see the sums of a step.
+/// Access to the particles of AdapTLE: tests write any state and read the sums of a step.
 namespace piola::testing {
 
 using adaptle::System;
@@ -32,7 +32,7 @@ struct Components {
   Iterator end() const { return {first + count * step, step}; }
 };
 
-/// A particle's state, to be read and written where it is.
+/// References to the state of one particle inside the fields, for reading and writing.
 struct State {
   Components x, v, S;
   double &rho, &energy, &plastic_strain, &plastic_work, &damage, &viscosity, &phi, &active, &released, &energy_rate;
@@ -56,7 +56,7 @@ struct State {
   static Components part(FieldRef const& f, Index i, int count) { return {&value_at(f, i), f.component_stride, count}; }
 };
 
-/// What a step has found for one particle; zero what the case does not have.
+/// Half-time values, sums and deformation of one particle after a step. Quantities that the case lacks are zero.
 struct Half {
   double v[3], S[6], volume, rho, pressure, c;
 };
@@ -88,7 +88,7 @@ inline void choose_formula(Assembly& a, std::string const& key, std::string cons
   for (auto& f : a.formulations) f.formulas.insert_or_assign(key, Expression(text, names));
 }
 
-/// Goes on by stable steps from a time [s]; the time after them.
+/// Advances by `steps` stable steps from `time` [s]. Returns the time reached [s].
 inline double take_steps(Formulation& f, double time, int steps) {
   for (int k = 0; k < steps; ++k) {
     double const dt = f.stable_time_step();
@@ -99,7 +99,7 @@ inline double take_steps(Formulation& f, double time, int steps) {
   return time;
 }
 
-/// Particles and the arrays of their state.
+/// Particles of an assembly and access to their fields.
 struct Cloud {
   explicit Cloud(Assembly const& a)
       : particles(std::make_unique<adaptle::Particles>(a, adaptle::read_options(a),
@@ -111,7 +111,7 @@ struct Cloud {
   double volume(Index i) const { return value_at(system().field.volume, i); }
   Point X(Index i) const { return point_at(system().field.X, i, 3); }
 
-  /// Of all sweeps.
+  /// Sums of particle i over spatial, reference and contact sweeps.
   Sums sums(Index i) const {
     adaptle::ParticleFields const& f = system().field;
     using R = adaptle::SpatialResult;
@@ -153,12 +153,12 @@ struct Cloud {
     return r;
   }
 
-  /// Lists who is what after `state` has been written.
+  /// Updates lists and particle types. Required after `state` was written.
   void changed() { particles->resumed(); }
-  /// Everything of a step, without that anything moves.
+  /// Evaluates all sums of a step; dt = 1e-25 s leaves positions unchanged.
   void evaluate() { particles->step(0, 1e-25); }
 
-  /// The velocity gradient that particle i feels.
+  /// Velocity gradient of particle i [1/s]: spatial and reference part, blended by its kernel type phi.
   Mat<3> velocity_gradient(Index i) const {
     Mat<3> L, F, rate;
     for (int c = 0; c < 9; ++c) L.c[c] = sums(i).L[c];
@@ -184,8 +184,8 @@ struct Cloud {
   static double of(FieldRef const& f, Index i, int c = 0) { return f.data != nullptr ? value_at(f, i, c) : 0; }
 };
 
-/// Gives particles of a cloud random velocities, stresses, densities, energies and switches of the viscosity, and
-/// places that are sheared, stretched and shaken by `shake` (in m).
+/// Sets random velocities, stresses, densities, energies and viscosity factors. Shears and stretches positions and adds
+/// random displacements up to `shake` [m].
 inline void shake_up(Cloud& cloud, int dimension, double shake, std::uint32_t seed = 7) {
   Random random(seed);
   for (Index i = 0; i < cloud.size(); ++i) {

@@ -113,7 +113,7 @@ TEST(AdaptleContact, ExponentRisesWhereStrengthPresses) {
   EXPECT_EQ(n(aluminium, steel, 0), 4);
   EXPECT_EQ(n(metal(1000, 1500, 0), aluminium, 100), 4) << "a liquid has no strength";
   double const never = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(n(metal(1000, 1500, never), metal(1000, 1500, never), 100), 4) << "rubber does not flow aside";
+  EXPECT_EQ(n(metal(1000, 1500, never), metal(1000, 1500, never), 100), 4) << "rubber does not flow sideways";
   double last = 4;
   for (double v = 60; v < 3000; v *= 1.01) {
     double const here = n(aluminium, steel, v);

@@ -258,7 +258,8 @@ TEST(AdaptleDeletion, LeavesParticlesWithoutStressAndWithTheirDeformation) {
   for (Index i = 0; i < cloud.size(); ++i) EXPECT_EQ(cloud.state[i].active, i == gone ? 0 : 1);
 }
 
-/// A checkpoint holds deformation only once there are deleted particles, whose deformation no positions tell.
+/// A checkpoint stores deformation gradients once there are deleted particles, whose deformation does not follow from
+/// positions.
 TEST(AdaptleDeletion, GoesOnFromACheckpointBitForBit) {
   Assembly a = adaptle_assembly(unit_box(2, 9), damaging());
   choose(a, "description", "total_lagrangian");
@@ -279,7 +280,8 @@ TEST(AdaptleDeletion, GoesOnFromACheckpointBitForBit) {
   EXPECT_EQ(saved(*resumed).values, saved(*whole).values);
 }
 
-/// What converts keeps a deformation that nobody reads, and that positions do not tell once it has gone on.
+/// A converted particle keeps a deformation gradient that is not read again. The gradient does not follow from
+/// positions after further steps.
 TEST(AdaptleDeletion, GoesOnFromACheckpointBetweenAConversionAndADeletionBitForBit) {
   ParticleSet set;
   for (double const start : {0.0, 3.0}) {

@@ -109,7 +109,7 @@ TEST_P(AdaptleRuns, AgreeOnAllMachines) {
 }
 
 TEST_P(AdaptleRuns, KeepTheirBooks) {
-  Assembly const a = assembly("auto", 3);  // the books of contact start out of its reach
+  Assembly const a = assembly("auto", 3);  // a gap of 3: no contact energy at the start
   auto const f = make_formulation(a);
   Diagnostics const before = f->diagnose();
   double const time = take_steps(*f, 0, 300);

@@ -226,7 +226,7 @@ TEST(CoupledFormulations, NamesTheFailedParticleByItsIdInTheWhole) {
   EXPECT_EQ(failure->X, row.particles.X[static_cast<std::size_t>(failure->particle)]);
 }
 
-// The guard of energy looks at the sum that does not rise, where one of the formulations tells one.
+// The energy guard checks `centred_energy`, which must not rise, if one of the formulations has this column.
 TEST(CoupledFormulations, CountsTheEnergyOfContactInTheCentredSum) {
   Assembly row = row_of_boxes({"taylor_sph", "nodal"});
   row.materials[0] = rubber("linear_elastic");
@@ -266,7 +266,7 @@ TEST(CoupledFormulations, RefusesWhatNoneOfItsFormulationsKnows) {
   EXPECT_NE(refusal(other).find("alchemy"), std::string::npos) << refusal(other);
 }
 
-// Columns of two formulations that have the same name are added up, which only sums bear.
+// Columns of the same name in two formulations are added, which is correct for additive quantities only.
 TEST(CoupledFormulations, FormulationsShareOnlyColumnsOfEnergy) {
   auto const all = formulations();
   for (std::size_t a = 0; a < all.size(); ++a)

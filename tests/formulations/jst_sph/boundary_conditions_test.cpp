@@ -316,7 +316,7 @@ double imbalance(Assembly const& a, double end, int n) {
 
 TEST_P(BothIntegrators, BookTheWorkOfDrivenSupportsAndLoads) {
   Assembly a = box(2, 7);
-  choose(a, "eps4_momentum", 0.0);  // its books are of first order with Verlet
+  choose(a, "eps4_momentum", 0.0);  // with Verlet its loss is known to first order only
   support(a, {true, true, false}, at_bottom);
   support(a, {true, true, false}, at_top).velocity = formulas({"3 * sin(900 * t)", "-5 + 2000 * t", "0"});
   load(a, {"3e3", "2e6 * t", "0"}, [](Point const& X) { return X[0] > 0.7; });

@@ -38,7 +38,7 @@ TEST(HeldSurface, BearsTheTractionOfAUniformPullAndNothingMoves) {
   std::string text =
       "initial_displacement = [\"0.02*X\", \"0\", \"0\"]\n" +
       fmt::format("[[load]]\nbody = \"body\"\npatch = \"+x\"\ntraction = [\"{:.17g}\", \"0\", \"0\"]\n", P(0, 0));
-  // Across, rollers on the surface bear what keeps the bar from contracting.
+  // Rollers on the lateral faces carry the stress that keeps the bar from contracting.
   for (std::string const patch : {"-x", "-y", "+y", "-z", "+z"}) text += support_on(patch, std::string(1, patch[1]));
   auto const simulation = body_with(text);
   auto& f = *simulation.formulation;

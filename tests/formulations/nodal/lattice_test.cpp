@@ -22,7 +22,7 @@ Assembly bent_lattice(int dimension, int longest) {
   return a;
 }
 
-/// The same particles, said to be no lattice: neighbours come from lists, cells from sampling.
+/// The assembly without its lattice: neighbours come from lists, cells from sampling.
 Assembly as_cloud(Assembly a) {
   a.particles.bodies[0].regular = false;
   return a;

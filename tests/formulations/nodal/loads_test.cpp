@@ -36,7 +36,7 @@ void swell(Assembly& a, double s, double angle) {
   });
 }
 
-/// Where the material bears a pure pressure: the law's mean stress at that swelling, in three dimensions.
+/// Pressure [Pa] of the law at the stretch s along all three axes.
 double pressure_at(double s) {
   Mat<3> F = identity<3>();
   for (int c = 0; c < 3; ++c) F(c, c) = s;

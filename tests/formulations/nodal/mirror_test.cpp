@@ -158,7 +158,7 @@ TEST(NodalMirror, ForcesAreMinusTheDerivativeOfTheEnergy) {
   }
 }
 
-/// A swollen part is in balance under the pressure that its material bears: along, across and beside the planes.
+/// A uniformly swollen part is in equilibrium under the pressure of its law: along, across and away from the planes.
 TEST(NodalMirror, PatchTest) {
   constexpr double swelling = 1.2;
   Mat<3> F = identity<3>();

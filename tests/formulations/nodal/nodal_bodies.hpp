@@ -14,7 +14,7 @@ inline Assembly nodal_body(ParticleSet set, MaterialParameters const& m = rubber
   return a;
 }
 
-/// A box whose edges and numbers of particles differ.
+/// A box with edges and particle counts that differ between axes.
 inline ParticleSet brick(int dimension, double jitter = 0, std::array<int, 3> n = {4, 5, 6}, std::uint32_t seed = 1) {
   ShapeSpec shape;
   shape.dimension = dimension;
@@ -29,12 +29,12 @@ inline ParticleSet brick(int dimension, double jitter = 0, std::array<int, 3> n 
   return set;
 }
 
-/// A lattice (without jitter), or a cloud.
+/// Particle arrangement of a test: a lattice if jitter is 0, jittered otherwise.
 struct Cloud {
   double jitter = 0;
   std::uint32_t seed = 1;
 };
-/// A lattice, and clouds of each jitter with seeds from 1 on.
+/// The lattice, and each jitter with the seeds 1 to `seeds`.
 inline std::vector<Cloud> clouds(std::vector<double> const& jitters = {0.4}, std::uint32_t seeds = 10) {
   std::vector<Cloud> all{{}};
   for (double const jitter : jitters)
@@ -42,7 +42,7 @@ inline std::vector<Cloud> clouds(std::vector<double> const& jitters = {0.4}, std
   return all;
 }
 
-/// The undeformed body of an assembly, with its order, which it refers to.
+/// Reference data of the first body of an assembly, with the particles and the slot order that they refer to.
 struct SetUpBody {
   explicit SetUpBody(Assembly const& a, double least_mass = 0.3)
       : set(a.particles),
@@ -62,7 +62,7 @@ struct SetUpBody {
   Point X(Index slot) const { return set.X[static_cast<std::size_t>(order.id[static_cast<std::size_t>(slot)])]; }
 };
 
-/// Forces that act on particles at rest: masses times accelerations, three components by id.
+/// Forces on the particles of the initial state, by id [N]: mass times acceleration.
 inline std::vector<Point> forces(Assembly const& a) {
   auto const D = static_cast<std::size_t>(a.particles.dimension);
   SetUpBody const body(a);
@@ -76,9 +76,9 @@ inline std::vector<Point> forces(Assembly const& a) {
   return force;
 }
 
-/// Forces that should vanish, over what they are measured by, of the clouds() of a test: at most 5e-3 on a lattice and
-/// with a jitter of up to 0.2, and on seven of ten clouds that are as crooked as a jitter of 0.4 makes 4 x 5 x 6
-/// particles; 1.2e-2 on the worst.
+/// Bounds of the residual forces of a patch test, relative to a reference force. Up to a jitter of 0.2: at most 5e-3.
+/// Larger jitter (0.4 on 4 x 5 x 6 particles): at most 5e-3 for seven of ten clouds(), at most 1.2e-2 for each. The
+/// destructor checks the count.
 class PatchForces {
  public:
   void add(Cloud const& cloud, double force) {

@@ -37,13 +37,13 @@ Assembly assembly(Setting const& s, double speed) {
 }
 
 double mass_of(Formulation const& f) {
-  // Of a uniform motion by 1 m/s.
+  // The momentum of a uniform motion at 1 m/s equals the mass.
   return f.diagnose().linear_momentum[0];
 }
 
 class AdjointExchange : public ::testing::TestWithParam<Setting> {};
 
-/// E* falls by (1 - b) dt^2/2 (sum V_J L_J:D:L_J - sum W_i L_i:D:L_i) in each step, which is booked as a loss.
+/// E* falls by (1 - b) dt^2/2 (sum V_J L_J:D:L_J - sum W_i L_i:D:L_i) in each step; `stabilisation_loss` contains it.
 TEST_P(AdjointExchange, BalancesEnergyInEveryStepToRoundOff) {
   for (double const memory : {0.0, 0.2, 1.0}) {
     // The balance is that of a fixed configuration without patterns of boxes.
@@ -189,8 +189,8 @@ TEST(AdjointLoads, HaveTheImpulseAndWorkOfTheirForce) {
   EXPECT_NEAR(booked, 0, 3e-3 * d.external_work) << "the side moves by a fraction of a per cent of its length";
 }
 
-/// In a fixed configuration the books close to round-off: energy, loss, work of tractions, of accelerations and of
-/// driven and oblique supports.
+/// In a fixed configuration the energy balance closes to round-off: energy, loss, work of tractions, of accelerations
+/// and of driven and oblique supports.
 TEST(AdjointLoads, CloseTheBooksOfEnergy) {
   for (int D = 1; D <= 3; ++D) {
     Assembly a = assembly({D, 0.2, "fixed", "delaunay"}, 0.1);

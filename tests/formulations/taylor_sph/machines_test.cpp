@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(All, EveryTaylorMachine, ::testing::ValuesIn(settings()
          s.cells;
 });
 
-/// Bodies so large that two threads share their particles (exec::team), that squeeze until lists are made anew.
+/// Bodies large enough for two threads (exec::team_size), compressed until neighbour lists are rebuilt.
 class TaylorThreads : public ::testing::TestWithParam<std::tuple<int, std::string>> {};
 
 TEST_P(TaylorThreads, DoNotChangeABit) {
@@ -84,7 +84,7 @@ TEST_P(TaylorThreads, DoNotChangeABit) {
   choose(a, "virtual_particles", D == 3 ? "lattice_cells" : "delaunay");
   a.backend = backend;
   a.cfl = 0.5;
-  // A squeeze that changes lengths by 7.5 % in a step.
+  // Compression changes lengths by 7.5 % in a step.
   double const rate = 0.15 * Moduli(D).speed() * (n - 1);
   give_velocity(a, [&, D = D](Point const& X) {
     double const wave = 1 + 0.2 * std::sin(9 * X[0]);

@@ -54,15 +54,15 @@ TEST(TaylorBodyInUniformMotion, KeepsItsVelocityAndHasNoStress) {
 
 // ---- checkpoints
 
-/// A plate whose edges are driven as in simple shear, with a wave besides: lists are made anew, and later the
-/// triangulation.
+/// A plate whose edges are driven in simple shear, with a superposed wave. The motion rebuilds neighbour lists, and
+/// later the triangulation.
 Assembly sheared_plate(int n, double rate) {
   Assembly a = assemble_taylor(unit_box(2, n));
   choose(a, "virtual_particles", "delaunay");
   std::string const along = std::to_string(rate) + "*Y";
   drive(a, {true, true, false}, {along, "0", "0"}, [](Point const& X) { return is_on_edge(X, 2); });
   give_velocity(a, [&](Point const& X) {
-    // A wave besides, so that neither stress nor velocity is uniform.
+    // The superposed wave makes stress and velocity non-uniform.
     return Point{rate * X[1], is_on_edge(X, 2) ? 0 : 0.1 * std::sin(3 * X[0]) * std::sin(3 * X[1]), 0};
   });
   return a;
@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(All, TaylorCheckpoint,
                          ::testing::Combine(::testing::Values(1, 2, 3), ::testing::Values(0.0, 0.2),
                                             ::testing::ValuesIn(backends())));
 
-/// Before each checkpoint and after it lists are made anew, so that the state of lists counts.
+/// Lists are rebuilt before and after each checkpoint, so their state must be restored.
 TEST(TaylorCheckpoint, ContinuesWithTheSameBitsThroughNewLists) {
   Assembly const a = sheared_plate(8, 5);
   auto const f = make_formulation(a);
@@ -248,7 +248,7 @@ TEST(TaylorFailure, OfACellTurnedInsideOutIsReported) {
   EXPECT_EQ(failure->what, "is at a cell that is turned inside out, crushed or torn");
 }
 
-/// Whatever becomes of a particle, the run ends soon, with a failure that is told.
+/// A particle with an extreme velocity ends the run within 30 steps, with a reported failure.
 TEST(TaylorFailure, OfAParticleThatFliesOffIsReported) {
   for (double const speed : {1e6, 1e20, 1e30, 1e300, std::numeric_limits<double>::infinity(), std::nan("")})
     for (auto const* cells : {"lattice_cells", "delaunay"}) {

@@ -4,7 +4,7 @@
 #include "formulations/small_bodies.hpp"
 #include "neighbours/cell_checks.hpp"
 
-/// Small bodies under Taylor-SPH, as tests build and watch them.
+/// Small bodies under Taylor-SPH.
 namespace piola::testing {
 
 /// Young's modulus and density of the bodies below: round numbers, c = 10 m/s in a bar.
@@ -14,8 +14,8 @@ inline MaterialParameters soft(double poissons_ratio = 0.3) {
   return material("linear_elastic", density, youngs_modulus, poissons_ratio);
 }
 
-/// One body at rest, under the estimates of the paper, whose sums and orders most tests state; tests of the adjoint
-/// exchange choose it.
+/// One body at rest with the kernel sums of the paper (`exchange = "kernel_sums"`), to which most tests refer. Tests of
+/// the adjoint exchange select it themselves.
 inline Assembly assemble_taylor(ParticleSet set, MaterialParameters const& m = soft()) {
   Assembly a = assemble(std::move(set), m);
   a.formulations.assign(a.particles.bodies.size(), FormulationSpec{"taylor_sph", {}, {{"exchange", "kernel_sums"}}});
@@ -38,7 +38,7 @@ inline bool is_on_edge(Point const& X, int dimension) {
   return false;
 }
 
-/// Drives the particles for which where(X) with the velocity of formulas.
+/// Adds a support that prescribes the components `fix` of the velocity of the particles with where(X).
 template <class F>
 Support& drive(Assembly& a, std::array<bool, 3> fix, std::array<std::string, 3> const& velocity, F const& where) {
   Support& s = support(a, fix, where);
@@ -46,7 +46,7 @@ Support& drive(Assembly& a, std::array<bool, 3> fix, std::array<std::string, 3> 
   return s;
 }
 
-/// The state of a run, from its checkpoint, changed by `change` and loaded again.
+/// Applies change(values) to the state of a run: saves it, changes it, loads it again.
 template <class F>
 void change_state(Formulation& f, F const& change) {
   SavedState s = saved(f);
@@ -54,7 +54,7 @@ void change_state(Formulation& f, F const& change) {
   f.load(s);
 }
 
-/// Gives each particle the stress value(X), in the order of SymMat<D>.
+/// Sets the stress value(X) of each particle, in the component order of SymMat<D>.
 template <class F>
 void give_stress(Formulation& f, Assembly const& a, F const& value) {
   change_state(f, [&](auto& values) {
@@ -67,14 +67,14 @@ void give_stress(Formulation& f, Assembly const& a, F const& value) {
   });
 }
 
-/// Everything that a checkpoint holds, in a row.
+/// All values of a checkpoint in one array.
 inline Values whole_state(Formulation const& f) {
   Values all;
   for (auto const& [name, values] : saved(f).values) all.insert(all.end(), values.begin(), values.end());
   return all;
 }
 
-/// A number of this formulation only.
+/// A diagnostic column that only this formulation has.
 inline double more(Formulation const& f, std::string_view name) {
   for (auto const& [key, value] : f.diagnose().more)
     if (key == name) return value;
@@ -82,7 +82,7 @@ inline double more(Formulation const& f, std::string_view name) {
   return 0;
 }
 
-/// Steps of the stable size; returns the time.
+/// Advances by `steps` stable steps from `time` [s]. Returns the time reached [s].
 inline double run(Formulation& f, int steps, double time = 0) {
   for (int k = 0; k < steps; ++k) {
     double const dt = f.stable_time_step();
@@ -92,7 +92,8 @@ inline double run(Formulation& f, int steps, double time = 0) {
   return time;
 }
 
-/// A body that turns, stretches and waves: everything that a step computes is busy. Speeds are shares of that of sound.
+/// A body that rotates, stretches and carries waves, so that no term of a step vanishes. `speed` scales the initial
+/// velocities [m/s].
 inline Assembly busy_body(int dimension, int n, double jitter = 0, double speed = 1) {
   Assembly a = assemble_taylor(unit_box(dimension, n, jitter));
   give_velocity(a, [&](Point const& X) {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-/// Bodies for tests of contact.
+/// Blocks with surfaces, and checks of contact forces.
 namespace piola::contact::testing {
 
 inline ShapeSpec box(int dimension, std::array<double, 3> min, std::array<int, 3> particles, double spacing) {
@@ -21,7 +21,7 @@ inline ShapeSpec box(int dimension, std::array<double, 3> min, std::array<int, 3
   return shape;
 }
 
-/// Two blocks, one on the other, the upper one with another spacing and pressed in by `depth`.
+/// Two stacked blocks. The upper one has another spacing and overlaps the lower one by `depth` [m].
 struct Blocks {
   ParticleSet set;
   std::vector<Surface> surfaces;
@@ -59,7 +59,7 @@ inline std::vector<Vec<3>> places(System const& system, ParticleSet const& set) 
   return x;
 }
 
-/// Deforms, shears and shakes: nothing is flat any more.
+/// Bends, shears and perturbs the positions, so that no face remains flat.
 inline void distort(std::vector<Vec<3>>& x, int dimension, double amount) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> some(-1, 1);
@@ -71,8 +71,8 @@ inline void distort(std::vector<Vec<3>>& x, int dimension, double amount) {
   }
 }
 
-/// The points of a surface in another order, in which those of the left part, x < `middle`, and of the rest keep
-/// theirs.
+/// Interleaves the points of a surface at random. The points with x < `middle` keep their relative order, and so do the
+/// remaining points.
 inline void deal_out(Surface& surface, ParticleSet const& set, double middle, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::vector<SurfacePoint> side[2];
@@ -86,7 +86,7 @@ inline void deal_out(Surface& surface, ParticleSet const& set, double middle, st
   }
 }
 
-/// There are forces, without a resultant and without a moment.
+/// Expects non-zero contact forces whose resultant and moment vanish.
 inline void expect_balance(System const& system, std::vector<Vec<3>> const& x) {
   Vec<3> force, moment;
   double size = 0;
@@ -103,7 +103,7 @@ inline void expect_balance(System const& system, std::vector<Vec<3>> const& x) {
   }
 }
 
-/// Forces are the slopes of the energy at x, tried on every third particle that is pushed.
+/// Expects forces to be minus the gradient of the energy at x, by central differences for every third loaded point.
 inline void expect_slopes(System& system, std::vector<Vec<3>> const& x, int dimension) {
   system.evaluate(x, 1e-3);
   auto const forces = system.forces();

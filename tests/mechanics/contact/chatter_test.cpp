@@ -8,7 +8,7 @@ namespace {
 
 using namespace testing;
 
-/// Two blocks with some motion; the points of the first half of the carriers rub.
+/// Two blocks in motion. The surface points of the first half of the host particles slide with friction.
 class Chatter : public ::testing::TestWithParam<int> {
  protected:
   Chatter() : blocks_(GetParam(), 0.0), hosts_(blocks_.set, blocks_.surfaces) {

@@ -126,8 +126,8 @@ TEST(FrictionLaw, FallsFromRestToSlidingAndHasALimit) {
   EXPECT_DOUBLE_EQ(friction_bound({.kinetic = 0.3, .shear_limit = 1}, 10, 2, 0), 2);
 }
 
-/// Pulls the upper block along by so much a step and returns the largest force of friction over the normal one, at
-/// first and at last.
+/// Pulls the upper block sideways by `way` [m] per step. Returns the ratio of friction force to normal force: the
+/// largest one, and the last one.
 std::array<double, 2> pull(Blocks const& blocks, FrictionLaw const& law, double way, double dt) {
   System system = blocks.system({}, law);
   auto x = places(system, blocks.set);

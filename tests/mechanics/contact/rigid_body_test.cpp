@@ -111,7 +111,7 @@ TEST(RigidBody, TumblesWithAllItsEnergyAndAngularMomentum) {
   Mat<3> const R = matrix_of(body.turn), unity = transpose(R) * R;
   for (int k = 0; k < 9; ++k) EXPECT_NEAR(unity.c[k], k % 4 == 0 ? 1 : 0, 1e-14);
   for (int k = 0; k < steps; ++k) body.drift(-0.01);
-  EXPECT_LT(largest(body.turn.v), 1e-10) << "the way back is the way there, but for rounding that grows at each flip";
+  EXPECT_LT(largest(body.turn.v), 1e-10) << "steps of -dt undo steps of dt, up to rounding that grows at each flip";
 }
 
 TEST(RigidBody, SpinsOfBallsAndDiscsAreExact) {

@@ -170,7 +170,7 @@ TEST_P(InDimensions, ForcesDoNotDependOnWhenListsWereMadeOrOnThreads) {
   }
 }
 
-/// All that a run is told of contact.
+/// All results of contact that a run reads.
 std::vector<double> told_by(System const& system, std::size_t rigids) {
   Totals const& t = system.totals();
   std::vector<double> all{t.energy,        t.deepest,       t.frequency2,
@@ -188,7 +188,7 @@ std::vector<double> told_by(System const& system, std::size_t rigids) {
   return all;
 }
 
-/// Two plates whose ends rub on each other and on a free rigid shape, and whose middles are apart.
+/// Two plates whose ends slide with friction on each other and on a free rigid shape. Their middles do not touch.
 std::vector<double> rub_at_both_ends(int D, std::uint32_t seed) {
   Blocks plates(D, -50);
   plates.set = {};
@@ -312,7 +312,7 @@ TEST_P(InDimensions, RestoredStateGoesOnBitForBit) {
     move();
     whole.evaluate(x, 1e-3);
   }
-  // A run that resumes has looked at its start before.
+  // A resumed run has evaluated contact at its start before restore().
   auto pressed = places(resumed, blocks.set);
   for (Vec<3>& y : pressed) y[D - 1] -= 0.02;
   resumed.start(pressed);

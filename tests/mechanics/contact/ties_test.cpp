@@ -162,7 +162,7 @@ TEST_P(TiesIn, ForcesAreTheSlopesOfTheEnergy) {
   }
 }
 
-/// All that a run is told of a tie of the ends of two plates.
+/// All results of a tie between the ends of two plates that a run reads.
 std::vector<double> tied_at_both_ends(int D, std::uint32_t seed) {
   Stack plates(D);
   plates.set = {};

@@ -75,8 +75,8 @@ Resultants Particles::actions() const {
   return all;
 }
 
-/// Migrates particles from the old partition to the new one: sends the fields of a checkpoint, except phi and alive,
-/// which all ranks hold, from the old owner to the new one.
+/// Migrates particles from the old partition to the new one. Sends the fields of a checkpoint from the old owner to the
+/// new one, except the replicated fields phi and active.
 void Particles::migrate(std::vector<Partition> const& from, std::vector<Partition> const& to) {
   std::vector<Field*> fields;
   each_saved(fields_, [&](Field& field) {

@@ -192,8 +192,8 @@ void Particles::set_contact(Assembly const& assembly) {
                                                                     : 0;
 }
 
-/// Arrays have the length of the whole run; pages are allocated on first write. Every rank writes phi and alive of all
-/// particles; other fields only of its own particles and ghosts.
+/// Arrays have the length of the whole run; pages are allocated on first write. Every rank writes phi and active of all
+/// particles; other fields only of local particles and ghosts.
 void Particles::allocate(Assembly const& assembly) {
   auto const n = static_cast<std::size_t>(assembly.particles.size());
   System& s = system_;

@@ -81,7 +81,7 @@ class Particles {
   Fields& fields() { return fields_; }
   Fields const& fields() const { return fields_; }
   EnergyTotals& energy_totals() { return energy_totals_; }
-  /// Calls f(field) for all fields of a checkpoint, `alive` first. Slots count if is_saved(). Deformation follows from
+  /// Calls f(field) for all fields of a checkpoint. Slots count if is_saved(). Deformation follows from
   /// positions, except for deleted particles. The reference data of converted particles are not needed.
   template <class Set, class F>
   void each_saved(Set& fields, F const& f) const {

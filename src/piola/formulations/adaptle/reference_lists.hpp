@@ -19,7 +19,7 @@ class ReferenceLists {
              Fields& fields, Settings const& settings, int lanes);
 
   /// Determines which particles need a deformation gradient and which receive material forces. Kinematic ones get gap =
-  /// 0, others -1. Deleted ones are removed from the sums of their neighbours. Reads phi and alive of all particles.
+  /// 0, others -1. Deleted ones are removed from the sums of their neighbours. Reads phi and active of all particles.
   void choose(Fields& fields, bool as_published);
 
   /// Calls f(b) for the reference neighbours of a within the distance [m].

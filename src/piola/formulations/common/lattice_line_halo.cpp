@@ -21,7 +21,7 @@ LatticeLineHalo::LatticeLineHalo(ParticleSet const& set, Body const& body, Slots
     size[c] = own.first < own.last ? std::min(body.lattice[c] - 1, highest + 1) - first[c] + 1 : 0;
   }
   lines_ = LatticeLines(first, size);
-  // Of several particles at one position the one with the largest id counts.
+  // The largest id wins where several particles share a position.
   for (Index i = 0; i < slots.particles; ++i) {
     if (!lines_.holds(at(i))) continue;
     Index& there = lines_[at(i)];

@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 2> support_words{"direct", "multipliers"}
 constexpr std::array choices{
     Choice{"scheme",
            "filtered: stabilisation with the speed of shear waves, filtered volumetric energy from Poisson's ratio "
-           "0.45 on, velocity Verlet; paper: operators and Runge-Kutta steps as printed, with a kernel and supports "
+           "0.45 on, velocity Verlet; paper: operators and Runge-Kutta steps as published, with a kernel and supports "
            "that the paper does not print",
            scheme_words},
     Choice{"variables",

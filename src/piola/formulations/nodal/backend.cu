@@ -32,7 +32,7 @@ void launch_each(Range r, void const* passes) {
   exec::for_each(r, exec::as<Pass>(passes));
 }
 
-/// Of lattices, a thread per block.
+/// Sweeps over lattices use one thread per block.
 template <int D>
 void launch_lattice(Range r, void const* passes, exec::Scratch const& scratch) {
   exec::for_each_block(

@@ -93,7 +93,7 @@ class StabilityMonitor {
   double interval_ = 0;                 ///< steps to the next measurement while strains change little
   double steps_since_measurement_ = 0;  ///< steps since the last measurement, in equivalents of slow steps
   double energy_ = 0;                   ///< largest measured energy [J]
-  double energy_oscillation_ = 0;       ///< see unrest() [J/s2]
+  double energy_oscillation_ = 0;       ///< largest indicator of look_at_unrest() [J/s2]
   double recent_max_ = 0;               ///< largest indicator since its last reset or confirmation
   double recent_max_age_ = 0;           ///< age of that, in equivalents of slow steps
 };

@@ -60,7 +60,7 @@ std::vector<Point> free_directions(std::vector<Point> held, int D) {
   std::vector<Point> free;
   for (int c = 0; c < D && held.size() < static_cast<std::size_t>(D); ++c) {
     Point d = axes[c];
-    // An axis that is almost in the span of the others would give a direction of round-off.
+    // An axis that is almost in the span of `held` would leave a direction of round-off.
     Point rest = d;
     for (auto const& h : held)
       for (std::size_t k = 0; k < 3; ++k) rest[k] -= dot(d, h) * h[k];
