@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/child_process.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <exception>
@@ -83,6 +85,8 @@ bool collect(int pipe, double seconds, std::string& bytes) {
 }  // namespace
 
 ChildAnswer run_in_child_process(std::function<std::string()> const& work, ChildLimits const& limits) {
+  PIOLA_EXPECTS(work != nullptr);
+  PIOLA_EXPECTS(limits.seconds > 0 && std::isfinite(limits.seconds));
   ChildAnswer answer;
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) return {{}, "could not be started: too many open files"};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/errors.hpp"
+#include "piola/base/contracts.hpp"
 #include <algorithm>
 #include <numeric>
 
@@ -16,12 +17,15 @@ std::string place_text(Place const& place) {
 }  // namespace
 
 void Problems::add(Place const& place, std::string text) {
+  PIOLA_EXPECTS(!text.empty());
+  PIOLA_EXPECTS(place.line >= 0 && place.column >= 0);
   std::string const where = place_text(place);
   lines_.push_back(where.empty() ? std::move(text) : where + ": " + text);
   places_.push_back(place);
 }
 
 void Problems::sort_by_place() {
+  PIOLA_EXPECTS(places_.size() == lines_.size());
   std::vector<std::size_t> order(lines_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

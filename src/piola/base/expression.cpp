@@ -389,12 +389,14 @@ Expression::Expression(std::string const& text, Names const& names) {
 }
 
 Expression::Expression(std::string text, Function function) : compiled_(std::make_unique<Compiled>()) {
+  PIOLA_EXPECTS(function != nullptr);
   compiled_->text = std::move(text);
   compiled_->function = std::move(function);
   compiled_->constant = false;
 }
 
 Expression::Expression(Expression const& other) {
+  PIOLA_EXPECTS(other.compiled_ != nullptr);
   Compiled const& c = *other.compiled_;
   if (c.function)
     *this = Expression(c.text, c.function);
@@ -429,9 +431,13 @@ double Expression::operator()(std::array<double, 3> const& X, double t, std::spa
   return c.parser.Eval();
 }
 
-std::string const& Expression::text() const { return compiled_->text; }
+std::string const& Expression::text() const {
+  PIOLA_EXPECTS(compiled_ != nullptr);
+  return compiled_->text;
+}
 
 bool Expression::depends_on_time() const {
+  PIOLA_EXPECTS(compiled_ != nullptr);
   if (compiled_->function) return true;
   auto const uses_time = [](std::string const& text) {
     auto const words = words_of(text);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/read_file.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
 #include <algorithm>
@@ -58,6 +59,7 @@ FileToRead::~FileToRead() {
 }
 
 std::size_t FileToRead::read(std::span<char> bytes) {
+  PIOLA_EXPECTS(fd_ >= 0 || !problem_.empty());
   std::size_t done = 0;
   while (problem_.empty() && done < bytes.size()) {
     ::ssize_t const got = ::read(fd_, bytes.data() + done, bytes.size() - done);

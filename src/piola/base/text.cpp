@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
+#include "piola/base/contracts.hpp"
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -73,6 +74,7 @@ int edit_distance(std::string_view a, std::string_view b) {
     before.swap(last);
     last.swap(now);
   }
+  PIOLA_ENSURES(last[n] <= static_cast<int>(std::max(a.size(), n)));
   return last[n];
 }
 
@@ -119,6 +121,7 @@ bool is_name(std::string_view text) {
 std::vector<std::string> to_strings(std::span<std::string_view const> words) { return {words.begin(), words.end()}; }
 
 std::string number_text(double value, int digits) {
+  PIOLA_EXPECTS(digits >= 1);
   return std::isnan(value) ? "not a number" : fmt::format("{:.{}g}", value, digits);
 }
 
@@ -136,6 +139,7 @@ std::string count_text(std::int64_t count) {
 }
 
 std::string quantity_text(double value, std::string_view si_unit, int digits) {
+  PIOLA_EXPECTS(digits >= 1);
   if (si_unit == "1" || std::isnan(value)) return number_text(value, digits);
   constexpr std::array<std::string_view, 7> prefixed{"Pa", "s", "m", "J", "N", "W", "Hz"};
   constexpr std::array<std::string_view, 9> prefixes{"p", "n", "u", "m", "", "k", "M", "G", "T"};

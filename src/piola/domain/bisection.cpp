@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/domain/bisection.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/halo_plan.hpp"
 #include "piola/exec/device_loops.hpp"
 #include <algorithm>
@@ -78,6 +79,9 @@ class Bisection {
 }  // namespace
 
 SlotOrder bisected(ParticleSet const& set, Body const& body, SlotOrder const& order, int ranks) {
+  PIOLA_EXPECTS(ranks >= 1);
+  PIOLA_EXPECTS(set.dimension >= 1 && set.dimension <= 3);
+  PIOLA_EXPECTS(order.particles == body.last - body.first && order.particles <= order.slots());
   if (ranks == 1) return order;
   std::size_t const whole = static_cast<std::size_t>(order.particles) / leaf;
   std::vector<Box> boxes(whole);
@@ -97,6 +101,7 @@ SlotOrder bisected(ParticleSet const& set, Body const& body, SlotOrder const& or
   for (std::size_t k = 0; k < whole; ++k)
     std::copy_n(order.id.begin() + static_cast<std::ptrdiff_t>(from[k] * leaf), leaf,
                 permuted.id.begin() + static_cast<std::ptrdiff_t>(k * leaf));
+  PIOLA_ENSURES(permuted.slots() == order.slots());
   return permuted;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The only place with MPI. ranks_absent.cpp takes its place in builds without it.
+#include "piola/base/contracts.hpp"
 #include "piola/domain/error_agreement.hpp"
 #include "piola/exec/cpu_time.hpp"
 #include <algorithm>
@@ -115,10 +116,15 @@ RankError trouble_of(int lowest, RankError const& own) {
 }
 
 constexpr int halo_tag = 1, carry_tag = 2;
+/// MPI counts are ints.
+constexpr std::size_t most_items = std::numeric_limits<int>::max();
+
+bool is_rank(int r) { return r >= 0 && r < world.count; }
 
 }  // namespace
 
 void start() {
+  PIOLA_EXPECTS(!world.started);
   if (!launched()) return;
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
@@ -144,6 +150,9 @@ int rank() { return world.own; }
 int size() { return world.count; }
 
 void allreduce_bytes(void* items, std::size_t count, std::size_t bytes, Combine combine) {
+  PIOLA_EXPECTS(items != nullptr || count == 0);
+  PIOLA_EXPECTS(count <= most_items && bytes > 0);
+  PIOLA_EXPECTS(combine != nullptr);
   if (!is_parallel()) return;
   Timer const timer(world.spent.in_collectives);
   world.combine = combine;
@@ -161,6 +170,7 @@ void allreduce_max(double& value) {
 }
 
 void allreduce_or(std::span<double> values) {
+  PIOLA_EXPECTS(values.size() <= most_items);
   if (!is_parallel() || values.empty()) return;
   static_assert(sizeof(double) == sizeof(std::uint64_t));
   Timer const timer(world.spent.in_collectives);
@@ -173,6 +183,7 @@ void allreduce_or(std::span<double> values) {
 }
 
 std::vector<double> gather(std::span<double const> values) {
+  PIOLA_EXPECTS(values.size() <= most_items);
   if (!is_parallel()) return {values.begin(), values.end()};
   int const mine = static_cast<int>(values.size());
   std::vector<int> counts(static_cast<std::size_t>(world.count), 0);
@@ -185,6 +196,9 @@ std::vector<double> gather(std::span<double const> values) {
 }
 
 void allgather(std::span<double> values, std::span<std::size_t const> starts) {
+  PIOLA_EXPECTS(!is_parallel() || starts.size() == static_cast<std::size_t>(world.count) + 1);
+  PIOLA_EXPECTS(!is_parallel() || (starts.front() == 0 && starts.back() <= values.size()));
+  PIOLA_EXPECTS(starts.empty() || starts.back() <= most_items);
   if (!is_parallel()) return;
   world.spent.collectives += 1;
   world.spent.replicated_bytes += static_cast<std::int64_t>(starts.back() * sizeof(double));
@@ -201,9 +215,11 @@ void allgather(std::span<double> values, std::span<std::size_t const> starts) {
 }
 
 void broadcast_bytes(void* data, std::size_t bytes) {
+  PIOLA_EXPECTS(bytes <= most_items && (data != nullptr || bytes == 0));
   tell_all(data, bytes, MPI_COMM_WORLD, world.spent.in_collectives);
 }
 void broadcast_command(void* data, std::size_t bytes) {
+  PIOLA_EXPECTS(bytes <= most_items && (data != nullptr || bytes == 0));
   tell_all(data, bytes, world.orders, world.spent.waiting_for_commands);
 }
 
@@ -215,6 +231,7 @@ bool all_equal(std::uint64_t number) {
 }
 
 std::vector<std::vector<Index>> alltoall(std::vector<std::vector<Index>> const& to) {
+  PIOLA_EXPECTS(to.size() == static_cast<std::size_t>(world.count));
   if (!is_parallel()) return to;
   static_assert(sizeof(Index) == sizeof(int));
   auto const n = static_cast<std::size_t>(world.count);
@@ -236,6 +253,8 @@ std::vector<std::vector<Index>> alltoall(std::vector<std::vector<Index>> const& 
 
 void alltoall_items(void const* out, std::span<Index const> sent, void* in, std::span<Index const> received,
                     std::size_t bytes) {
+  PIOLA_EXPECTS(sent.size() == static_cast<std::size_t>(world.count));
+  PIOLA_EXPECTS(received.size() == sent.size());
   Timer const timer(world.spent.in_exchanges);
   std::vector<int> const to(sent.begin(), sent.end()), from(received.begin(), received.end());
   std::vector<int> const to_at = starts_of(to), from_at = starts_of(from);
@@ -249,9 +268,12 @@ void exchange(std::span<Message const> receives, std::span<Message const> sends)
   Timer const timer(world.spent.in_exchanges);
   std::vector<MPI_Request> requests(receives.size() + sends.size(), MPI_REQUEST_NULL);
   std::size_t k = 0;
-  for (Message const& m : receives)
+  for (Message const& m : receives) {
+    PIOLA_EXPECTS(is_rank(m.rank) && m.rank != world.own && m.count <= most_items);
     MPI_Irecv(m.values, static_cast<int>(m.count), MPI_DOUBLE, m.rank, halo_tag, MPI_COMM_WORLD, &requests[k++]);
+  }
   for (Message const& m : sends) {
+    PIOLA_EXPECTS(is_rank(m.rank) && m.rank != world.own && m.count <= most_items);
     MPI_Isend(m.values, static_cast<int>(m.count), MPI_DOUBLE, m.rank, halo_tag, MPI_COMM_WORLD, &requests[k++]);
     world.traffic.messages += 1;
     world.traffic.bytes += static_cast<std::int64_t>(m.count * sizeof(double));
@@ -260,6 +282,8 @@ void exchange(std::span<Message const> receives, std::span<Message const> sends)
 }
 
 void send_to(int from, int to, std::span<double> values) {
+  PIOLA_EXPECTS(is_rank(from) && is_rank(to) && from != to);
+  PIOLA_EXPECTS(values.size() <= most_items);
   if (!is_parallel() || values.empty() || (world.own != from && world.own != to)) return;
   Timer const timer(world.spent.in_exchanges);
   int const size = static_cast<int>(values.size());
@@ -277,6 +301,7 @@ CommStatistics comm_statistics() { return world.spent; }
 RankError agree(RankError const& own) { return *agree_within(std::numeric_limits<double>::infinity(), own); }
 
 std::optional<RankError> agree_within(double seconds, RankError const& own) {
+  PIOLA_EXPECTS(seconds > 0);
   if (!is_parallel()) return own;
   // Static: a rank that times out leaves the request pending, and MPI may write to its buffer until the process ends.
   static int lowest;

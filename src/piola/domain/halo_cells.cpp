@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/domain/halo_cells.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include <algorithm>
 #include <limits>
@@ -41,6 +42,8 @@ void HaloCells::each_occupied(F const& f) const {
 }
 
 void HaloCells::start(std::array<Index, 3> const& shape, int dimension) {
+  PIOLA_EXPECTS(dimension == 2 || dimension == 3);
+  PIOLA_EXPECTS(shape[0] > 0 && shape[1] > 0 && shape[2] > 0);
   shape_ = shape;
   dimension_ = dimension;
   std::size_t cells = 1;
@@ -52,6 +55,8 @@ void HaloCells::start(std::array<Index, 3> const& shape, int dimension) {
 }
 
 void HaloCells::add(Cell const& of_rank, int rank) {
+  PIOLA_EXPECTS(of_rank.cell >= 0 && static_cast<std::size_t>(of_rank.cell) < body_.size());
+  PIOLA_EXPECTS(rank >= 0);
   if (first_.empty()) first_.assign(body_.size(), none);
   Index& first = first_[static_cast<std::size_t>(of_rank.cell)];
   said_.push_back({of_rank, rank, first});
@@ -60,6 +65,7 @@ void HaloCells::add(Cell const& of_rank, int rank) {
 }
 
 void HaloCells::finish(bool touching) {
+  PIOLA_EXPECTS(!body_.empty());
   each_occupied([&](Index cell) {
     Index const mine = body_[static_cast<std::size_t>(cell)];
     bool const is_eulerian = any_around(cell, [&](std::size_t other) { return flows_[other] != 0; });

@@ -91,6 +91,7 @@ void HaloPlan::add_side(std::vector<Side>& sides, int rank, int reach, std::vect
 }
 
 void HaloPlan::add(FieldRef const& field, int first, int count, int reach) {
+  PIOLA_EXPECTS(first >= 0 && count >= 0 && reach >= 0);
   PIOLA_EXPECTS(reach < reaches_);
   if (field.data != nullptr) values_.push_back({field.data, first, count, reach});
 }
@@ -162,6 +163,7 @@ std::size_t HaloPlan::bytes() const {
 void exchange(HaloPlan& plan, std::span<FieldRef const> fields) { plan.exchange(fields); }
 
 void exchange_once(HaloPlan const& plan, FieldRef const& field, int components) {
+  PIOLA_EXPECTS(field.data != nullptr && components > 0);
   HaloPlan once = plan.without_fields();
   once.add(field, 0, components);
   once.exchange(field);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/domain/load_balancer.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/error_agreement.hpp"
 #include "piola/exec/cpu_time.hpp"
 #include "piola/exec/threads.hpp"
@@ -63,12 +64,15 @@ bool LoadBalancer::due() {
 }
 
 LoadBalancer::Plan LoadBalancer::plan(std::vector<Partition> const& now, std::vector<std::vector<double>> work) const {
+  PIOLA_EXPECTS(work.size() == now.size());
+  PIOLA_EXPECTS(seconds_.size() == static_cast<std::size_t>(comm::size()));
   auto const count = static_cast<std::size_t>(comm::size());
   // f(rank, work of a block of its own)
   auto const each_block = [&](auto const& f) {
     for (std::size_t b = 0; b < now.size(); ++b)
       for (std::size_t r = 0; r < count; ++r) {
         Range const part = now[b].of(static_cast<int>(r));
+        PIOLA_EXPECTS(work[b].size() == static_cast<std::size_t>(exec::block_count(now[b].whole())));
         Index const first = (part.first - now[b].whole().first) / exec::block_size;
         for (Index k = 0; k < exec::block_count(part); ++k) f(r, work[b][static_cast<std::size_t>(first + k)]);
       }
@@ -94,10 +98,12 @@ LoadBalancer::Plan LoadBalancer::plan(std::vector<Partition> const& now, std::ve
 }
 
 bool LoadBalancer::pays(double longest) const {
+  PIOLA_EXPECTS(when_.every > 0 || !seconds_.empty());
   return when_.every > 0 || longest < (1 - gained) * *std::max_element(seconds_.begin(), seconds_.end());
 }
 
 void LoadBalancer::record_repartition() {
+  PIOLA_EXPECTS(steps_ > 0);
   last_cut_ = steps_ - 1;
   recuts_.imbalance.push_back(recuts_.last);
 }

@@ -89,6 +89,8 @@ Index nearest(Runs const& runs, Index low, Index high, double wanted) {
 }  // namespace
 
 Range even_range_of_rank(Index slots, int rank, int ranks) {
+  PIOLA_EXPECTS(slots >= 0);
+  PIOLA_EXPECTS(rank >= 0 && rank < ranks);
   std::int64_t const blocks = (std::int64_t{slots} + exec::block_size - 1) / exec::block_size;
   auto const start = [&](int r) {
     return static_cast<Index>(std::min<std::int64_t>(slots, blocks * r / ranks * exec::block_size));
@@ -97,12 +99,14 @@ Range even_range_of_rank(Index slots, int rank, int ranks) {
 }
 
 Partition::Partition(Range whole, int ranks) {
+  PIOLA_EXPECTS(whole.first <= whole.last && ranks >= 1);
   for (int r = 0; r < ranks; ++r)
     starts_.push_back(whole.first + even_range_of_rank(whole.last - whole.first, r, ranks).first);
   starts_.push_back(whole.last);
 }
 
 Partition::Partition(Range whole, std::vector<Index> const& first_block) {
+  PIOLA_EXPECTS(whole.first <= whole.last);
   PIOLA_EXPECTS(!first_block.empty() && first_block.front() == 0);
   PIOLA_EXPECTS(std::is_sorted(first_block.begin(), first_block.end()));
   std::int64_t const slots = whole.last - whole.first;
@@ -114,6 +118,7 @@ Partition::Partition(Range whole, std::vector<Index> const& first_block) {
 Partition Partition::from_zero() const {
   Partition moved = *this;
   for (Index& start : moved.starts_) start -= starts_.front();
+  PIOLA_ENSURES(moved.whole().first == 0);
   return moved;
 }
 
@@ -132,6 +137,7 @@ std::vector<Index> partition_by_work(std::span<double const> work, std::span<dou
     Index const low = std::max(earliest[static_cast<std::size_t>(r)], first.back() + runs.least());
     first.push_back(nearest(runs, low, runs.longest_from(r - 1, first.back(), most, bound), wanted));
   }
+  PIOLA_ENSURES(first.size() == before.size() && first.front() == 0);
   return first;
 }
 

@@ -22,6 +22,7 @@ void copy_rows(std::span<std::byte const> from, std::span<Index const> from_rows
 }  // namespace
 
 RedistributionPlan::RedistributionPlan(DistributedRows const& rows, Index block) : count_(rows.count), block_(block) {
+  PIOLA_EXPECTS(rows.count >= 0);
   PIOLA_EXPECTS(block > 0);
   auto const n = static_cast<std::size_t>(comm::size());
   Index const own_rows = rows.places ? static_cast<Index>(rows.places->size()) : count_;
@@ -47,6 +48,7 @@ RedistributionPlan::RedistributionPlan(DistributedRows const& rows, Index block)
 }
 
 Range RedistributionPlan::of(int rank) const {
+  PIOLA_EXPECTS(rank >= 0 && rank < comm::size());
   std::int64_t const blocks = (std::int64_t{count_} + block_ - 1) / block_, n = comm::size();
   auto const start = [&](std::int64_t r) {
     return static_cast<Index>(std::min<std::int64_t>(count_, (blocks * r + n - 1) / n * block_));

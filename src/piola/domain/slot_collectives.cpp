@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/domain/slot_collectives.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/domain/first_failure.hpp"
 #include <algorithm>
@@ -8,16 +9,19 @@
 namespace piola {
 
 Range even_local_range(Range whole) {
+  PIOLA_EXPECTS(whole.first <= whole.last);
   Range const share = even_range_of_rank(whole.last - whole.first, comm::rank(), comm::size());
   return {whole.first + share.first, whole.first + share.last};
 }
 
 Range DistributedSlots::of(int rank) const {
+  PIOLA_EXPECTS(particles >= 0 && particles <= slots);
   Range const share = even_range_of_rank(slots, rank, comm::size());
   return {std::min(share.first, particles), std::min(share.last, particles)};
 }
 
 void DistributedSlots::complete(std::span<double> values, std::size_t width) const {
+  PIOLA_EXPECTS(values.size() >= static_cast<std::size_t>(particles) * width);
   std::vector<std::size_t> starts{0};
   for (int rank = 0; rank < comm::size(); ++rank) starts.push_back(static_cast<std::size_t>(of(rank).last) * width);
   comm::allgather(values.first(starts.back()), starts);
@@ -36,7 +40,10 @@ void complete(double* data, std::ptrdiff_t size, Partition const& body) {
 
 }  // namespace
 
-void allgather_slots(double* data, std::ptrdiff_t size, Range whole) { complete(data, size, Partition(whole)); }
+void allgather_slots(double* data, std::ptrdiff_t size, Range whole) {
+  PIOLA_EXPECTS(size >= 0 && (data != nullptr || whole.first == whole.last));
+  complete(data, size, Partition(whole));
+}
 
 std::vector<double> allgather_slots(std::span<SlotArray const> arrays, std::span<double const> said) {
   if (!comm::is_parallel()) return {said.begin(), said.end()};
@@ -74,6 +81,7 @@ std::vector<double> allgather_slots(std::span<SlotArray const> arrays, std::span
 }
 
 void allgather_selected_slots(FieldRef const& field, Range own, std::span<Index const> slots, int components) {
+  PIOLA_EXPECTS(own.first <= own.last && components > 0);
   if (!comm::is_parallel()) return;
   std::vector<double> values;
   for (Index const i : slots)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/exec/backend_registry.hpp"
+#include "piola/base/contracts.hpp"
 #include <fmt/format.h>
 
 namespace piola::exec_host {
@@ -38,12 +39,14 @@ std::vector<std::string> usable_backends() {
 }
 
 std::string backend_text(std::string_view asked) {
+  PIOLA_EXPECTS(!asked.empty());
   auto const usable = usable_backends();
   std::string const name = asked == "auto" && !usable.empty() ? usable.front() : std::string(asked);
   return name + " of a processor with " + std::string(best_of_processor());
 }
 
 std::string not_usable(std::string_view backend, char const* const* usable) {
+  PIOLA_EXPECTS(usable != nullptr);
   if (*usable == nullptr)
     return "this program was built for another processor (it has no instruction set that this one can run) - build it "
            "here with tools/quickstart, or for every processor of the family with cmake --preset release";

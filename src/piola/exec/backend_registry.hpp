@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include <string>
 #include <string_view>
@@ -29,6 +30,7 @@ class BackendRegistry {
   /// `all`: best first.
   explicit BackendRegistry(std::vector<Backend const*> const& all) {
     for (Backend const* backend : all) {
+      PIOLA_EXPECTS(backend != nullptr);
       if (!processor_can_run(backend->name)) continue;
       usable_.push_back(backend);
       names_.push_back(backend->name);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/exec/memory.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/heap_tuning.hpp"
 #include <algorithm>
 #include <atomic>
@@ -29,7 +30,10 @@ std::size_t next_offset() {
 
 }  // namespace
 
-void exec_host::set_lazy_allocation(int parts) { parts_of_arrays = static_cast<std::size_t>(std::max(1, parts)); }
+void exec_host::set_lazy_allocation(int parts) {
+  PIOLA_EXPECTS(parts >= 1);
+  parts_of_arrays = static_cast<std::size_t>(std::max(1, parts));
+}
 
 Memory::Memory(std::size_t doubles) {
   std::size_t const payload = doubles * sizeof(double);

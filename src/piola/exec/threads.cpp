@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/exec/threads.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/cpu_quota.hpp"
 #include <algorithm>
 #include <atomic>
@@ -62,7 +63,10 @@ int team_size(int particles) {
   return std::clamp(worth + 1, 1, omp_get_max_threads());
 }
 
-int set_min_grain_size(int particles) { return least_share.exchange(std::max(1, particles)); }
+int set_min_grain_size(int particles) {
+  PIOLA_EXPECTS(particles >= 1);
+  return least_share.exchange(std::max(1, particles));
+}
 
 void pin_threads() {
   static std::vector<int> const cores = allowed_cores();  // as they were before the first pinning

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/boolean_solid.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/geometry/transformed_solid.hpp"
 #include <algorithm>
 #include <cmath>
@@ -28,6 +29,7 @@ class BooleanSolid final : public Solid {
  public:
   BooleanSolid(BooleanOperation how, std::vector<SolidPtr> parts) : how_(how), parts_(std::move(parts)) {
     for (SolidPtr const& part : parts_) {
+      PIOLA_EXPECTS(part != nullptr && part->dimension() == dimension());
       first_patch_.push_back(patches_.size());
       for (Patch const& patch : part->patches())
         patches_.push_back({std::to_string(first_patch_.size()) + "." + patch.name});
@@ -60,6 +62,7 @@ class BooleanSolid final : public Solid {
   std::vector<Patch> patches() const override { return patches_; }
 
   void cut_surface(double edge, std::vector<SurfacePiece>& pieces) const override {
+    PIOLA_EXPECTS(edge > 0);
     Bounds const box = bounds();
     std::size_t const before = pieces.size();
     for (std::size_t k = 0; k < parts_.size(); ++k) {
@@ -136,6 +139,7 @@ class BooleanSolid final : public Solid {
 }  // namespace
 
 SolidPtr combined(BooleanOperation how, std::vector<SolidPtr> parts) {
+  PIOLA_EXPECTS(!parts.empty());
   return std::make_shared<BooleanSolid>(how, std::move(parts));
 }
 

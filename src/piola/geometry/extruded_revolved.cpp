@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/extruded_revolved.hpp"
+#include "piola/base/contracts.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -46,6 +47,7 @@ Bounds Flat::bounds() const {
 std::vector<Patch> Flat::patches() const { return patches_named(profile_.names()); }
 
 void Flat::cut_surface(double edge, std::vector<SurfacePiece>& pieces) const {
+  PIOLA_EXPECTS(edge > 0);
   for (ProfileEdge const& e : profile_.edges())
     cut_edge(e, edge, [&](Vec<2> const& x, Vec<2> const& area) {
       pieces.push_back({{{x[0], x[1], 0}}, {{area[0], area[1], 0}}, e.patch});
@@ -75,6 +77,7 @@ std::vector<Patch> Extruded::patches() const {
 }
 
 void Extruded::cut_surface(double edge, std::vector<SurfacePiece>& pieces) const {
+  PIOLA_EXPECTS(edge > 0);
   int const layers = parts_over(to_ - from_, edge);
   double const height = (to_ - from_) / layers;
   for (ProfileEdge const& e : profile_.edges())
@@ -127,6 +130,7 @@ Bounds Revolved::bounds() const {
 std::vector<Patch> Revolved::patches() const { return patches_named(profile_.names()); }
 
 void Revolved::cut_surface(double edge, std::vector<SurfacePiece>& pieces) const {
+  PIOLA_EXPECTS(edge > 0);
   for (ProfileEdge const& e : profile_.edges()) {
     int const n = std::max(parts_over(e.length(), edge), e.arc ? 4 : 1);
     for (int i = 0; i < n; ++i) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/level_set.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/geometry/tetrahedra.hpp"
 #include <algorithm>
@@ -58,6 +59,7 @@ class LevelSet final : public Solid {
   }
 
   void cut_surface(double edge, std::vector<SurfacePiece>& pieces) const override {
+    PIOLA_EXPECTS(edge > 0);
     // Corners of the triangles are brought to the surface, so that only its curvature within one is lost.
     auto const value = [this](Vec<3> const& X) {
       return pool_->with([&](Expression const& f) { return value_at(f, X); });
@@ -141,6 +143,9 @@ std::optional<std::string> level_of(std::string const& formula) {
 }
 
 SolidPtr level_set(Expression const& f, Bounds const& box, double spacing, int dimension) {
+  PIOLA_EXPECTS(dimension == 2 || dimension == 3);
+  PIOLA_EXPECTS(box.min[0] < box.max[0] && box.min[1] < box.max[1]);
+  PIOLA_EXPECTS(dimension == 2 || box.min[2] < box.max[2]);
   return std::make_shared<LevelSet>(f, box, spacing, dimension);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/mesh.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/geometry/mesh_bytes.hpp"
 #include "piola/geometry/mesh_checks.hpp"
@@ -58,6 +59,7 @@ class MeshSolid : public Solid {
   std::optional<double> exact_volume() const override { return holes_ ? std::nullopt : std::optional(volume_); }
   std::vector<Patch> patches() const override { return patches_; }
   void cut_surface(double edge, std::vector<SurfacePiece>& pieces) const override {
+    PIOLA_EXPECTS(edge > 0);
     for (int face = 0; face < surface_.faces(); ++face) {
       auto const& c = surface_.corner[face];
       cut_triangle({{surface_.X[c[0]], surface_.X[c[1]], surface_.X[c[2]]}, 0.5 * surface_.twice_area(face)}, edge,
@@ -137,6 +139,7 @@ Links prepare(Surface& surface, std::string const& name, MeshOptions const& opti
 
 SolidPtr mesh_from_bytes(std::string_view bytes, std::string const& name, MeshOptions const& options,
                          MeshReport& report) {
+  PIOLA_EXPECTS(options.scale > 0);
   Surface surface = surface_of_bytes(bytes, name, options, report.problems, report.notes);
   if (!report.problems.empty()) return nullptr;
   Links const links = prepare(surface, name, options, report);

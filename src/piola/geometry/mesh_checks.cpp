@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/mesh_checks.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/geometry/mesh_repair.hpp"
 #include <algorithm>
@@ -179,6 +180,7 @@ ThinWall thinnest_wall(Surface const& surface, MeshDistance const& distance) {
 
 void check_links(Surface const& surface, Links const& links, std::string const& name, MeshOptions const& options,
                  MeshReport& report) {
+  PIOLA_EXPECTS(links.across.size() == 3 * surface.corner.size());
   report.open = static_cast<std::int64_t>(links.open.size());
   report.neighbour_overflow = static_cast<std::int64_t>(links.neighbour_overflow.size());
   report.turned = static_cast<std::int64_t>(links.turned.size());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/mesh_distance.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/geometry/mesh_normals.hpp"
 #include <algorithm>
 #include <cmath>
@@ -168,7 +169,9 @@ RTCRayHit MeshDistance::Search::ray(Vec<3> const& X, Vec<3> const& direction, do
 }
 
 MeshDistance::MeshDistance(Surface const& surface, Links const& links, Sign sign)
-    : search_(std::make_unique<Search>(surface, links, sign)) {}
+    : search_(std::make_unique<Search>(surface, links, sign)) {
+  PIOLA_EXPECTS(links.across.size() == 3 * surface.corner.size());
+}
 
 MeshDistance::~MeshDistance() = default;
 

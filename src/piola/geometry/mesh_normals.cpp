@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/mesh_normals.hpp"
+#include "piola/base/contracts.hpp"
 #include <cmath>
 
 namespace piola::geometry {
@@ -41,6 +42,7 @@ TriangleFoot foot_on_triangle(Vec<3> const& X, Vec<3> const& a, Vec<3> const& b,
 }
 
 SurfaceNormals::SurfaceNormals(Surface const& surface, Links const& links) : corners_of_(surface.corner) {
+  PIOLA_EXPECTS(links.across.size() == 3 * surface.corner.size());
   face_.resize(surface.corner.size());
   std::vector<int> flat;
   for (int face = 0; face < surface.faces(); ++face) {

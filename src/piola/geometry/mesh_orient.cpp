@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/contracts.hpp"
 #include "piola/geometry/mesh_surface.hpp"
 #include <algorithm>
 #include <cmath>
@@ -89,6 +90,8 @@ std::vector<char> cavities(Surface const& surface, Shells const& shells) {
 }  // namespace
 
 int orient(Surface& surface, Links const& links) {
+  PIOLA_EXPECTS(links.across.size() == 3 * surface.corner.size());
+  PIOLA_EXPECTS(links.shell.size() == surface.corner.size() && links.shells >= 0);
   auto turn = turns_to_agree(surface, links);
   for (int face = 0; face < surface.faces(); ++face)
     if (turn[face]) turn_face(surface, face);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/contracts.hpp"
 #include "piola/geometry/mesh_surface.hpp"
 #include <algorithm>
 #include <cmath>
@@ -51,6 +52,8 @@ bool smooth_across(Surface const& surface, int half, int other, double cosine) {
 
 std::vector<int> patches_of(Surface const& surface, Links const& links, double feature_angle,
                             std::vector<Patch>& patches) {
+  PIOLA_EXPECTS(surface.group.size() == surface.corner.size());
+  PIOLA_EXPECTS(links.across.size() == 3 * surface.corner.size());
   if (std::set<int>(surface.group.begin(), surface.group.end()).size() > 1) return patches_of_groups(surface, patches);
   double const cosine = std::cos(feature_angle);
   std::vector<int> patch(surface.corner.size(), -1), waiting;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/mesh_polygon.hpp"
+#include "piola/base/contracts.hpp"
 #include <algorithm>
 #include <cstddef>
 
@@ -49,6 +50,7 @@ std::size_t next_tip(std::span<Vec<3> const> X, std::vector<int> const& loop, Ve
 }  // namespace
 
 void cut_polygon(std::span<Vec<3> const> X, std::span<int const> loop, std::vector<std::array<int, 3>>& triangles) {
+  PIOLA_EXPECTS(loop.size() >= 3);
   std::vector<int> left(loop.begin(), loop.end());
   Vec<3> const n = normal_of_loop(X, left);
   while (left.size() > 3) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/mesh_repair.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <cmath>
@@ -107,6 +108,7 @@ int remove_flat_faces(Surface& surface) {
 }  // namespace
 
 int merge_corners(Surface& surface, double distance) {
+  PIOLA_EXPECTS(surface.group.size() == surface.corner.size());
   if (!is_resolved(surface, distance)) return 0;
   auto const points = points_of(surface);
   std::vector<int> first(points.size());
@@ -134,6 +136,7 @@ int merge_corners(Surface& surface, double distance) {
 }
 
 double closing_distance(Surface const& surface, Links const& links) {
+  PIOLA_EXPECTS(links.across.size() == 3 * surface.corner.size());
   if (links.open.empty()) return 0;
   std::unordered_set<int> at_edges;
   double sum = 0;
@@ -165,6 +168,7 @@ double closing_distance(Surface const& surface, Links const& links) {
 }
 
 RemovedFaces remove_needless_faces(Surface& surface) {
+  PIOLA_EXPECTS(surface.group.size() == surface.corner.size());
   RemovedFaces removed;
   removed.twice = remove_copies(surface);
   removed.without_area = remove_flat_faces(surface);

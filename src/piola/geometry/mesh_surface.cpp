@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/mesh_surface.hpp"
+#include "piola/base/contracts.hpp"
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -97,6 +98,7 @@ bool Surface::is_flat(int face) const {
 }
 
 int weld(Surface& surface) {
+  PIOLA_EXPECTS(surface.group.size() == surface.corner.size());
   std::unordered_map<Vec<3>, int, PlaceHash, SamePlace> known;
   known.reserve(surface.X.size());
   std::vector<Vec<3>> X;
@@ -138,6 +140,7 @@ Links link_faces(Surface const& surface) {
   }
   for (auto* list : {&links.open, &links.neighbour_overflow, &links.turned}) std::sort(list->begin(), list->end());
   number_shells(links);
+  PIOLA_ENSURES(links.shell.size() == surface.corner.size());
   return links;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/packing.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/math/array_conversion.hpp"
 #include "piola/neighbours/cell_grid.hpp"
@@ -280,6 +281,12 @@ double packed_count(double volume, double spacing, int dimension) {
 }
 
 Packing pack(Solid const& solid, double volume, double spacing, PackingOptions const& options) {
+  PIOLA_EXPECTS(volume > 0 && std::isfinite(volume));
+  PIOLA_EXPECTS(spacing > 0 && std::isfinite(spacing));
+  PIOLA_EXPECTS(options.sweeps >= 0);
+  PIOLA_EXPECTS(!options.from || options.from->listed.size() == options.from->X.size());
+  PIOLA_EXPECTS(!options.from || options.from->known_at.size() == options.from->X.size());
+  PIOLA_EXPECTS(!options.from || options.from->away.size() == options.from->X.size());
   if (options.from) {
     Packer packer(solid, volume, options.from->X);
     packer.continue_from(*options.from);
@@ -290,6 +297,7 @@ Packing pack(Solid const& solid, double volume, double spacing, PackingOptions c
 }
 
 PackingQuality quality_of(Solid const& solid, Packing const& packing) {
+  PIOLA_EXPECTS(packing.spacing > 0);
   PackingQuality q;
   q.nearest_least = 1e300;
   CellGrid const grid(packing.X, 1.5 * packing.spacing);

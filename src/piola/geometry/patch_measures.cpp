@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/patch_measures.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include <algorithm>
 #include <array>
@@ -48,6 +49,7 @@ class BlockVolume {
 }  // namespace
 
 double volume_of(Solid const& solid, double spacing) {
+  PIOLA_EXPECTS(spacing > 0);
   if (auto const exact = solid.exact_volume()) return *exact;
   constexpr int depth = 3;
   Bounds const box = solid.bounds();
@@ -78,6 +80,7 @@ double volume_of(Solid const& solid, double spacing) {
 }
 
 std::vector<PatchFacts> patch_facts(Solid const& solid, double edge) {
+  PIOLA_EXPECTS(edge > 0);
   std::vector<PatchFacts> facts;
   for (Patch const& patch : solid.patches()) facts.push_back({patch.name, 0, {}, {}});
   std::vector<SurfacePiece> pieces;

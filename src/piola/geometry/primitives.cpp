@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/primitives.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/geometry/extruded_revolved.hpp"
 #include "piola/geometry/transformed_solid.hpp"
 #include <cmath>
@@ -29,6 +30,8 @@ SolidPtr moved(SolidPtr solid, Vec<3> const& by) { return placed(std::move(solid
 }  // namespace
 
 SolidPtr box(Vec<3> const& min, Vec<3> const& max, int dimension) {
+  PIOLA_EXPECTS(dimension == 2 || dimension == 3);
+  PIOLA_EXPECTS(min[0] < max[0] && min[1] < max[1] && (dimension == 2 || min[2] < max[2]));
   Profile rectangle(
       {polygon({{{min[0], min[1]}}, {{max[0], min[1]}}, {{max[0], max[1]}}, {{min[0], max[1]}}}, {2, 1, 3, 0})},
       {"-x", "+x", "-y", "+y"});
@@ -37,6 +40,8 @@ SolidPtr box(Vec<3> const& min, Vec<3> const& max, int dimension) {
 }
 
 SolidPtr ball(Vec<3> const& centre, double radius, double inner_radius, int dimension) {
+  PIOLA_EXPECTS(dimension == 2 || dimension == 3);
+  PIOLA_EXPECTS(inner_radius >= 0 && inner_radius < radius);
   bool const hollow = inner_radius > 0;
   Names const names = hollow ? Names{"outer", "inner"} : Names{"outer"};
   if (dimension == 2) {
@@ -59,6 +64,8 @@ SolidPtr ball(Vec<3> const& centre, double radius, double inner_radius, int dime
 }
 
 SolidPtr cylinder(Vec<3> const& base, Vec<3> const& axis, double length, double radius, double inner_radius) {
+  PIOLA_EXPECTS(length > 0);
+  PIOLA_EXPECTS(inner_radius >= 0 && inner_radius < radius);
   double const r = inner_radius;
   Names names{"outer", "start", "end"};
   if (r > 0) names.emplace_back("inner");
@@ -90,6 +97,7 @@ SolidPtr torus(Vec<3> const& centre, Vec<3> const& axis, double radius, double t
 }
 
 SolidPtr capsule(Vec<3> const& from, Vec<3> const& to, double radius, int dimension) {
+  PIOLA_EXPECTS(dimension == 2 || dimension == 3);
   Vec<3> const line = to - from;
   double const length = std::sqrt(dot(line, line));
   if (dimension == 2) {
@@ -106,6 +114,7 @@ SolidPtr capsule(Vec<3> const& from, Vec<3> const& to, double radius, int dimens
 }
 
 SolidPtr half_space(Vec<3> const& point, Vec<3> const& normal, int dimension) {
+  PIOLA_EXPECTS(dimension == 2 || dimension == 3);
   return std::make_shared<HalfSpace>(point, normal, dimension);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/profile.hpp"
+#include "piola/base/contracts.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -194,6 +195,8 @@ double Profile::revolved_volume() const {
 
 std::vector<ProfileEdge> polygon_loop(std::vector<Vec<2>> corners, bool hole, double feature_angle,
                                       std::vector<std::string>& names) {
+  PIOLA_EXPECTS(corners.size() >= 3);
+  PIOLA_EXPECTS(feature_angle >= 0);
   std::size_t const n = corners.size();
   double twice = 0;
   for (std::size_t i = 0; i < n; ++i) {

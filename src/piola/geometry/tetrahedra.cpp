@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/tetrahedra.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include <algorithm>
 #include <cmath>
@@ -155,11 +156,16 @@ class LevelGrid {
 
 Triangles level_surface(std::function<double(Vec<3> const&)> const& value, Bounds const& box, double edge,
                         int dimension) {
+  PIOLA_EXPECTS(value != nullptr);
+  PIOLA_EXPECTS(edge > 0);
+  PIOLA_EXPECTS(dimension == 2 || dimension == 3);
   return LevelGrid(value, box, edge, dimension).run();
 }
 
 void append_pieces(Triangles const& triangles, std::vector<Vec<3>> const& corner, int dimension,
                    std::vector<SurfacePiece>& pieces) {
+  PIOLA_EXPECTS(dimension == 2 || dimension == 3);
+  PIOLA_EXPECTS(corner.size() == triangles.corner.size());
   for (auto const& face : triangles.face) {
     auto const X = [&](std::size_t i) { return corner[static_cast<std::size_t>(face[i])]; };
     if (dimension == 2) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/thickness.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include <algorithm>
 #include <array>
@@ -56,6 +57,7 @@ void thin_out(std::vector<SurfacePiece>& pieces, double side) {
 }  // namespace
 
 std::optional<Thinnest> thinnest(Solid const& solid, double edge) {
+  PIOLA_EXPECTS(edge > 0);
   constexpr std::size_t together = 4096;  // pieces per batch; a batch uses the result of earlier batches as its bound
   constexpr double shortest = 1e-3;       // of a piece
   std::vector<SurfacePiece> pieces;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/geometry/transformed_solid.hpp"
+#include "piola/base/contracts.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -42,6 +43,7 @@ class TransformedSolid final : public Solid {
   }
   std::vector<Patch> patches() const override { return solid_->patches(); }
   void cut_surface(double edge, std::vector<SurfacePiece>& pieces) const override {
+    PIOLA_EXPECTS(edge > 0);
     std::size_t const first = pieces.size();
     solid_->cut_surface(edge / to_.scale, pieces);
     double const larger = std::pow(to_.scale, dimension() - 1);
@@ -90,6 +92,8 @@ Mat<3> rotation_from_z(Vec<3> const& axis) {
 }
 
 SolidPtr placed(SolidPtr solid, RigidTransform const& placing) {
+  PIOLA_EXPECTS(solid != nullptr);
+  PIOLA_EXPECTS(placing.scale > 0);
   if (auto const* half = dynamic_cast<HalfSpace const*>(solid.get()))
     return std::make_shared<HalfSpace>(placing.scale * (placing.rotation * half->point()) + placing.move,
                                        placing.rotation * half->normal(), half->dimension());
@@ -99,6 +103,7 @@ SolidPtr placed(SolidPtr solid, RigidTransform const& placing) {
 Bounds HalfSpace::bounds() const { return {{{-inf, -inf, -inf}}, {{inf, inf, inf}}}; }
 
 void HalfSpace::cut_surface_around(Bounds const& box, double edge, std::vector<SurfacePiece>& pieces) const {
+  PIOLA_EXPECTS(edge > 0);
   Vec<3> const middle = 0.5 * (box.min + box.max), half = 0.5 * (box.max - box.min);
   double const reach = std::sqrt(dot(half, half)), away = at(middle).distance;
   if (std::abs(away) > reach) return;

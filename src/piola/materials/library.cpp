@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/materials/library.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/materials/library_sets.hpp"
 #include <algorithm>
 
@@ -23,7 +24,10 @@ std::vector<LibraryMaterial> all_sets() {
 
 LibrarySource source_of(std::string_view key) {
   auto const all = library_sources();
-  return *std::find_if(all.begin(), all.end(), [&](LibrarySource const& source) { return source.key == key; });
+  auto const found =
+      std::find_if(all.begin(), all.end(), [&](LibrarySource const& source) { return source.key == key; });
+  PIOLA_EXPECTS(found != all.end());
+  return *found;
 }
 
 }  // namespace
@@ -77,11 +81,14 @@ std::optional<std::string_view> renamed_material(std::string_view name) {
 }
 
 MaterialParameters parameters_of(LibraryMaterial const& material) {
-  LawInfo const law = *find_law(material.law);
+  auto const found = find_law(material.law);
+  PIOLA_EXPECTS(found.has_value());
+  LawInfo const& law = *found;
   MaterialParameters values;
   values.law = law.index;
   for (std::size_t c = 0; c < law.choices.size(); ++c) {
     if (auto const word = material.word(law.choices[c].name)) values.word[c] = index_of(law.choices[c], *word);
+    PIOLA_ENSURES(values.word[c] >= 0);
   }
   for (std::size_t i = 0; i < law.parameters.size(); ++i) {
     Parameter const& parameter = law.parameters[i];

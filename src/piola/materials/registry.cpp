@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/materials/registry.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
 #include <algorithm>
 #include <array>
@@ -30,14 +31,17 @@ std::optional<LawInfo> find_law(std::string_view name) {
 }
 
 int index_of(Choice const& choice, std::string_view word) {
+  PIOLA_EXPECTS(!choice.allowed.empty());
   auto const at = std::find(choice.allowed.begin(), choice.allowed.end(), word);
   return at == choice.allowed.end() ? -1 : static_cast<int>(at - choice.allowed.begin());
 }
 
 bool applies(LawInfo const& law, Parameter const& parameter, MaterialParameters const& material) {
+  PIOLA_EXPECTS(law.choices.size() <= MaterialParameters::max_words);
   if (parameter.when.always()) return true;
   for (std::size_t i = 0; i < law.choices.size(); ++i) {
     auto const word = static_cast<std::size_t>(material.word[i]);
+    PIOLA_EXPECTS(word < law.choices[i].allowed.size());
     if (law.choices[i].name == parameter.when.choice) return parameter.when.holds(law.choices[i].allowed[word]);
   }
   return false;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/math/envelope_cholesky.hpp"
+#include "piola/base/contracts.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -23,6 +24,7 @@ double product(double const* a, double const* b, std::size_t n) {
 EnvelopeCholesky::EnvelopeCholesky(std::vector<std::size_t> first) : first_(std::move(first)) {
   std::size_t total = 0;
   for (std::size_t i = 0; i < first_.size(); ++i) {
+    PIOLA_EXPECTS(first_[i] <= i);
     begin_.push_back(total);
     total += i + 1 - first_[i];
   }
@@ -31,6 +33,7 @@ EnvelopeCholesky::EnvelopeCholesky(std::vector<std::size_t> first) : first_(std:
 }
 
 void EnvelopeCholesky::factorise(std::span<double const> scale) {
+  PIOLA_EXPECTS(scale.empty() || scale.size() == size());
   for (std::size_t i = 0; i < size(); ++i) {
     double rest = entry(i, i);
     double const size = scale.empty() ? rest : scale[i];
@@ -47,6 +50,7 @@ void EnvelopeCholesky::factorise(std::span<double const> scale) {
 }
 
 void EnvelopeCholesky::solve(std::span<double> b) const {
+  PIOLA_EXPECTS(b.size() == size());
   for (std::size_t i = 0; i < size(); ++i) {
     double const sum = b[i] - product(values_.data() + begin_[i], &b[first_[i]], i - first_[i]);
     b[i] = dependent_[i] ? 0 : sum / entry(i, i);
@@ -58,6 +62,7 @@ void EnvelopeCholesky::solve(std::span<double> b) const {
 }
 
 std::size_t EnvelopeCholesky::rank() const {
+  PIOLA_EXPECTS(dependent_.size() == size());
   return size() - static_cast<std::size_t>(std::count(dependent_.begin(), dependent_.end(), true));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/body_boundary_conditions.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include <algorithm>
 #include <map>
@@ -26,6 +27,7 @@ double along(FieldRef const& v, PrescribedDirection const& h, int D) {
 BodyBoundary::BodyBoundary(int dimension, std::vector<Support> const& supports, std::vector<Load> const& loads,
                            bool multiplied)
     : D_(dimension), multiplied_(multiplied), of_supports_(supports.size()), of_loads_(loads.size()) {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
   for (Support const& support : supports) {
     supports_.push_back(support);
     supports_.back().particles.clear();
@@ -44,11 +46,13 @@ BodyBoundary::BodyBoundary(int dimension, std::vector<Support> const& supports, 
 }
 
 std::size_t BodyBoundary::add_particle(PrescribedParticle const& particle) {
+  PIOLA_EXPECTS(particle.slot >= 0);
   particles_.push_back({particle, {}});
   return particles_.size() - 1;
 }
 
 void BodyBoundary::add_row(std::size_t particle, std::size_t support, Direction const& direction) {
+  PIOLA_EXPECTS(particle < particles_.size() && support < supports_.size());
   Particle& p = particles_[particle];
   auto const& velocity = supports_[support].velocity;
   Row row{support, direction, 0, !velocity};
@@ -61,6 +65,8 @@ void BodyBoundary::add_row(std::size_t particle, std::size_t support, Direction 
 
 void BodyBoundary::add_supports(std::vector<Support> const& supports, std::function<bool(std::int64_t id)> const& takes,
                                 std::function<PrescribedParticle(std::int64_t id)> const& particle_of) {
+  PIOLA_EXPECTS(supports.size() == supports_.size());
+  PIOLA_EXPECTS(takes != nullptr && particle_of != nullptr);
   std::map<std::int64_t, std::size_t> numbers;  // in the order of ids
   for (Support const& support : supports)
     for (auto const id : support.particles)
@@ -78,6 +84,7 @@ void BodyBoundary::add_supports(std::vector<Support> const& supports, std::funct
 }
 
 void BodyBoundary::add_load(std::size_t load, LoadedPlace const& place) {
+  PIOLA_EXPECTS(load < loads_.size() && place.slot >= 0);
   auto const slot = static_cast<std::size_t>(place.slot);
   if (slot >= place_of_slot_.size()) place_of_slot_.resize(slot + 1, no_place);
   if (place_of_slot_[slot] == no_place) {
@@ -90,6 +97,8 @@ void BodyBoundary::add_load(std::size_t load, LoadedPlace const& place) {
 }
 
 void BodyBoundary::keep(Range own) {
+  PIOLA_EXPECTS(own.first <= own.last);
+  PIOLA_EXPECTS(released_ < 0);
   share(own);
   first_kept_ = own.first;
   if (multiplied_) return;
@@ -109,6 +118,7 @@ void BodyBoundary::keep(Range own) {
 }
 
 void BodyBoundary::start(FieldRef const& v) const {
+  PIOLA_EXPECTS(released_ >= 0);
   for (auto const& h : held_) {
     double const now = along(v, h, D_);
     for (int c = 0; c < D_; ++c) {
@@ -248,6 +258,8 @@ void BodyBoundary::note_places(FieldRef const& x) {
 }
 
 void BodyBoundary::end_step(FieldRef const& x, DeferredGlobalSum& work) {
+  PIOLA_EXPECTS(held_start_.size() == held_.size());
+  PIOLA_EXPECTS(!named_loads_ || loaded_start_.size() == loaded_.size());
   exec::ReproducibleSum of_step;
   for (auto const& h : held_)
     if (is_local(own_, h.slot)) of_step += h.work;
@@ -297,6 +309,8 @@ void BodyBoundary::remove_ended(FieldRef const& rate) const {
 }
 
 void BodyBoundary::add_resultants_to(Resultants& actions) const {
+  PIOLA_EXPECTS(actions.supports.size() <= of_supports_.size());
+  PIOLA_EXPECTS(actions.loads.size() >= of_loads_.size());
   std::vector<ImpulseSum> all(of_supports_);
   all.insert(all.end(), of_loads_.begin(), of_loads_.end());
   if (own_) comm::allreduce_sum(std::span(all));
@@ -310,6 +324,7 @@ void BodyBoundary::reset_impulses() {
 }
 
 void BodyBoundary::damp(FieldRef const& v, Index last, double factor) const {
+  PIOLA_EXPECTS(last >= first_kept_);
   std::vector<double> before;
   for (auto const& h : held_) before.push_back(along(v, h, D_));
   for (Index i = first_kept_; i < last; ++i)

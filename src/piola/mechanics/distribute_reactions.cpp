@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/distribute_reactions.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/reproducible_sum.hpp"
 #include "piola/math/envelope_cholesky.hpp"
 #include <cmath>
@@ -50,6 +51,7 @@ RigidModes modes_of(std::vector<SupportRow> const& rows) {
 }  // namespace
 
 void share_out(std::vector<SupportRow> const& rows, Impulse const& rest, std::vector<Impulse>& of_support) {
+  PIOLA_EXPECTS(!rows.empty() && !of_support.empty());
   RigidModes const modes = modes_of(rows);
   EnvelopeCholesky matrix({0, 0, 0, 0, 0, 0});
   std::array<double, RigidModes::count> z{}, size{};

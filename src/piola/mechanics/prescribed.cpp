@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/prescribed.hpp"
+#include "piola/base/contracts.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -25,6 +26,7 @@ bool make_orthogonal(Direction& d, std::vector<Direction> const& to) {
 }
 
 std::vector<Direction> directions_of(Support const& s, int D) {
+  PIOLA_EXPECTS(D >= 1 && D <= 3);
   static constexpr Direction axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   std::vector<Direction> held;
   auto const n = static_cast<std::size_t>(D);
@@ -71,6 +73,7 @@ std::vector<PrescribedAxis> hold_along(std::vector<Direction> const& rows) {
     held.push_back(next);
     chosen.push_back(d);
   }
+  PIOLA_ENSURES(held.size() <= 3);
   return held;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/resultants.hpp"
+#include "piola/base/contracts.hpp"
 #include <algorithm>
 
 namespace piola {
@@ -88,6 +89,7 @@ std::vector<double> Resultants::state() const {
 }
 
 void Resultants::restore(std::span<double const> state) {
+  PIOLA_EXPECTS(state.size() == this->state().size());
   auto from = state.begin();
   dt_ = *from++;
   auto const take = [&](Point& to) {

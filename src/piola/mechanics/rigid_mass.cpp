@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/rigid_mass.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/math/symmetric_eigen.hpp"
 #include <cmath>
 #include <limits>
@@ -43,6 +44,7 @@ PrincipalInertia principal(std::array<double, 6> const& given, int dimension) {
 }  // namespace
 
 double volume_of(RigidShape const& shape, int dimension) {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
   double const r = shape.radius;
   auto const& half = shape.half_lengths;
   switch (shape.kind) {
@@ -55,6 +57,8 @@ double volume_of(RigidShape const& shape, int dimension) {
 }
 
 PrincipalInertia inertia_of(RigidShape const& shape, int dimension) {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
+  PIOLA_EXPECTS(shape.inertia || shape.mass > 0);
   if (shape.inertia) return principal(*shape.inertia, dimension);
   double const m = shape.mass, r2 = shape.radius * shape.radius;
   auto const square = [&](std::size_t c) { return shape.half_lengths[c] * shape.half_lengths[c]; };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/surface_constraint.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/slot_collectives.hpp"
 #include "piola/mechanics/constraint_matrix.hpp"
 #include <algorithm>
@@ -28,6 +29,8 @@ SurfaceConstraint::SurfaceConstraint(int dimension, std::vector<Support> const& 
                                      std::vector<ConstrainedFacet> const& places, std::span<double const> mass,
                                      std::vector<Point> const& X)
     : D_(dimension), driven_(dimension, supports, {}, false) {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
+  PIOLA_EXPECTS(places.empty() || mass.size() <= X.size());
   if (places.empty()) return;
   // Numbered in the order of the places, independent of the memory order: sums are taken in this order.
   std::vector<std::size_t> number(mass.size(), mass.size());

@@ -53,6 +53,7 @@ std::vector<SeenFacet> grouped(std::vector<SeenFacet> const& all, std::vector<st
 }  // namespace
 
 FacetTable facets_of(Cells const& cells) {
+  PIOLA_EXPECTS(cells.corners == cells.dimension + 1 || cells.corners == 1 << cells.dimension);
   PIOLA_EXPECTS(cells.dimension >= 1 && cells.dimension <= 3);
   if (cells.dimension == 1) return {1, ends};
   if (cells.dimension == 2) return cells.corners == 3 ? FacetTable{2, of_triangle} : FacetTable{2, of_rectangle};
@@ -77,6 +78,7 @@ std::vector<Index> cells_across(Cells const& cells) {
       if (f + 1 == last) break;
     }
   }
+  PIOLA_ENSURES(across.size() == static_cast<std::size_t>(cells.count()) * table.facet.size());
   return across;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/neighbours/cell_grid.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/math/hash.hpp"
 #include <algorithm>
 #include <bit>
@@ -20,6 +21,7 @@ bool is_finite(std::array<double, 3> const& p) {
 
 CellGrid::CellGrid(std::vector<std::array<double, 3>> const& points, double cell)
     : cell_(cell > 0 ? cell : std::numeric_limits<double>::min()) {
+  PIOLA_EXPECTS(points.size() < static_cast<std::size_t>(std::numeric_limits<Index>::max()));
   find_shape(points);
   std::vector<Cell> home(points.size());
   begin_.assign(places_ + 1, 0);
@@ -38,6 +40,7 @@ CellGrid::CellGrid(std::vector<std::array<double, 3>> const& points, double cell
     point_[to] = static_cast<Index>(p);
     if (hashed) cell_at_[to] = home[p];
   }
+  PIOLA_ENSURES(begin_.size() == places_ + 1 && point_.size() <= points.size());
 }
 
 /// The box around all points that have a finite position, and whether its cells are few enough to be stored.

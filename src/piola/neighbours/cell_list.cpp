@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/neighbours/cell_list.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include <algorithm>
 #include <cmath>
@@ -31,6 +32,9 @@ CoordinateBounds::CoordinateBounds() {
 }
 
 CoordinateBounds bounds_of(double const* x, std::ptrdiff_t stride, SlotList const& some, int dimension) {
+  PIOLA_EXPECTS(some.count >= 0 && (x != nullptr || some.count == 0));
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
+  PIOLA_EXPECTS(stride >= dimension);
   constexpr Index part = 4096;
   Index const parts = (some.count + part - 1) / part;
   std::vector<CoordinateBounds> of_part(static_cast<std::size_t>(parts));
@@ -82,6 +86,9 @@ double CellList::kept(double x, std::size_t axis) const {
 
 void CellList::lay(CoordinateBounds const& all, Index particles, int dimension, double cell,
                    std::array<double, 3> const& origin, Coordinates const& coordinates) {
+  PIOLA_EXPECTS(particles >= 0);
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
+  PIOLA_EXPECTS(coordinates != nullptr);
   particles_ = particles;
   dimension_ = static_cast<std::size_t>(dimension);
   cell_edge_ = cell;
@@ -101,6 +108,9 @@ void CellList::lay(CoordinateBounds const& all, Index particles, int dimension, 
 }
 
 void CellList::find_cells(double const* x, std::ptrdiff_t stride, SlotList const& some) {
+  PIOLA_EXPECTS(some.count >= 0 && some.count <= particles_);
+  PIOLA_EXPECTS(x != nullptr || some.count == 0);
+  PIOLA_EXPECTS(stride >= static_cast<std::ptrdiff_t>(dimension_));
   x_ = x;
   stride_ = stride;
   exec_host::parallel_for(some.count, [&](Index k) {
@@ -127,6 +137,8 @@ void CellList::find_cells(double const* x, std::ptrdiff_t stride, Index particle
 }
 
 void CellList::sort(SlotList const& some) {
+  PIOLA_EXPECTS(some.count >= 0 && some.count <= particles_);
+  PIOLA_EXPECTS(x_ != nullptr || some.count == 0);
   begin_.assign(static_cast<std::size_t>(cell_count()) + 1, 0);
   for (Index k = 0; k < some.count; ++k)
     ++begin_[static_cast<std::size_t>(key_[static_cast<std::size_t>(some[k])]) + 1];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/neighbours/cross_set_pairs.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <cmath>
@@ -86,6 +87,12 @@ class Search {
 }  // namespace
 
 void CrossSetPairs::build(CrossSetPairRequest const& request, int lanes, Index filler) {
+  PIOLA_EXPECTS(lanes >= 1);
+  PIOLA_EXPECTS(request.target_in_slot.size() % static_cast<std::size_t>(lanes) == 0);
+  PIOLA_EXPECTS(request.h.size() == request.targets.size());
+  PIOLA_EXPECTS(request.least.size() == request.targets.size());
+  PIOLA_EXPECTS(request.slot_of_source.size() == request.sources.size());
+  PIOLA_EXPECTS(request.support > 0 && request.skin >= 0);
   Search search(request);
   std::size_t const slots = request.target_in_slot.size(), width = static_cast<std::size_t>(lanes);
   begin_.assign(1, 0);

@@ -154,6 +154,7 @@ Cells delaunay(Points const& points, int dimension, double largest_radius) {
   Cells cells = between_points(triangulate(enclose(points, dimension, radius), body, dimension), points, dimension);
   drop_wide(cells, points, radius);
   peel_slivers(cells, points, radius);
+  PIOLA_ENSURES(cells.corner.size() % static_cast<std::size_t>(cells.corners) == 0);
   return cells;
 }
 

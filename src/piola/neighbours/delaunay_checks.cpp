@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/neighbours/delaunay_checks.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
 #include "piola/math/tensor.hpp"
@@ -101,6 +102,7 @@ void check_spread(Points const& points, int dimension, double extent, Problems& 
 }  // namespace
 
 Extent extent_of(Points const& points, int dimension) {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
   Extent extent;
   double sum = 0;
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension) && !points.empty(); ++d) {
@@ -115,6 +117,7 @@ Extent extent_of(Points const& points, int dimension) {
 }
 
 void check_points(Points const& points, int dimension) {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
   Problems problems;
   check_finite(points, dimension, problems);
   check_count(points, dimension, problems);

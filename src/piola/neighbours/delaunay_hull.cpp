@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/neighbours/delaunay_hull.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/neighbours/simplex.hpp"
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 
 extern "C" {
@@ -116,6 +118,8 @@ void add_simplices(Hull const& hull, facetT const& facet, Points const& points, 
 }  // namespace
 
 LowerHull lower_hull(Points const& points, std::vector<double> const& height, int dimension) {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
+  PIOLA_EXPECTS(height.size() == points.size());
   std::vector<double> coordinates;
   coordinates.reserve(points.size() * static_cast<std::size_t>(dimension + 1));
   for (std::size_t p = 0; p < points.size(); ++p) {
@@ -130,6 +134,7 @@ LowerHull lower_hull(Points const& points, std::vector<double> const& height, in
   }
   for (facetT const* f = hull.first_facet(); f != nullptr && f->next != nullptr; f = f->next)
     if (f->normal != nullptr && f->normal[dimension] < 0) add_simplices(hull, *f, points, dimension, lower.corner);
+  PIOLA_ENSURES(lower.corner.size() % static_cast<std::size_t>(dimension + 1) == 0);
   return lower;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/neighbours/delaunay_peel.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/neighbours/cell_facets.hpp"
 #include "piola/neighbours/simplex.hpp"
 #include <algorithm>
@@ -116,6 +117,9 @@ bool nearly_flat(Cells const& cells, Index cell, Points const& points) {
 }
 
 void peel_slivers(Cells& cells, Points const& points, double largest_radius) {
+  PIOLA_EXPECTS(cells.dimension == 2 || cells.dimension == 3);
+  PIOLA_EXPECTS(cells.corners == cells.dimension + 1);
+  PIOLA_EXPECTS(largest_radius > 0);
   std::vector<Index> slivers;
   for (Index cell = 0; cell < cells.count(); ++cell)
     if (nearly_flat(cells, cell, points)) slivers.push_back(cell);

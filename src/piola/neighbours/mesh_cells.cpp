@@ -112,6 +112,10 @@ void add_facet(Cells const& cells, Index cell, FacetTable const& table, std::siz
 }  // namespace
 
 Cells lattice_cells(ParticleSet const& set, Body const& body) {
+  PIOLA_EXPECTS(set.dimension >= 1 && set.dimension <= 3);
+  PIOLA_EXPECTS(is_range_in(body, set));
+  PIOLA_EXPECTS(set.lattice_index.size() == set.X.size());
+  PIOLA_EXPECTS(set.crack_side.empty() || set.crack_side.size() == set.X.size());
   LatticeMap const particle(set, body);
   int const dimension = set.dimension;
   Cells cells{dimension, 1 << dimension, {}};
@@ -130,6 +134,7 @@ Cells lattice_cells(ParticleSet const& set, Body const& body) {
 }
 
 Cells split_alternately(Cells const& boxes, ParticleSet const& set, Body const& body, Diagonals diagonals) {
+  PIOLA_EXPECTS(boxes.dimension >= 1 && boxes.dimension <= 3);
   PIOLA_EXPECTS(boxes.corners == 1 << boxes.dimension);
   Cells cells{boxes.dimension, boxes.dimension + 1, {}};
   for (Index box = 0; box < boxes.count(); ++box) {
@@ -147,6 +152,8 @@ Cells split_alternately(Cells const& boxes, ParticleSet const& set, Body const& 
 
 void open_cracks(Cells& cells, Points const& X, std::vector<std::int8_t> const& side, std::vector<Index> const& twin,
                  std::vector<Crack> const& cracks) {
+  PIOLA_EXPECTS(cells.corners > 0);
+  PIOLA_EXPECTS(side.size() == X.size() && twin.size() == X.size());
   if (cracks.empty()) return;
   for (Index cell = 0; cell < cells.count(); ++cell) {
     std::array<double, 3> const middle = centroid(cells.of(cell), X);
@@ -161,6 +168,7 @@ void open_cracks(Cells& cells, Points const& X, std::vector<std::int8_t> const& 
 }
 
 Surface surface_of(Cells const& cells, Points const& points) {
+  PIOLA_EXPECTS(cells.corners > 0 && cells.corner.size() % static_cast<std::size_t>(cells.corners) == 0);
   FacetTable const table = facets_of(cells);
   std::vector<Index> const across = cells_across(cells);
   Surface surface;

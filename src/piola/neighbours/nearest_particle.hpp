@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/base/contracts.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include "piola/particles/particle_set.hpp"
 #include <array>
@@ -15,6 +16,8 @@ class NearestParticle {
   using Place = std::array<double, 3>;
   NearestParticle(ParticleSet const& set, Body const& body)
       : scaled_(scaled(set, body)), near_(scaled_, 1), far_(scaled_, 3) {
+    PIOLA_EXPECTS(is_range_in(body, set) && body.first < body.last);
+    PIOLA_EXPECTS(body.spacing[0] > 0 && body.spacing[1] > 0 && body.spacing[2] > 0);
     for (std::size_t c = 0; c < 3; ++c) per_spacing_[c] = 1 / body.spacing[c];
   }
   std::size_t operator()(Place const& X) const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/neighbours/particle_cells.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/neighbours/nearest_particle.hpp"
 #include <algorithm>
@@ -245,12 +246,17 @@ class Sampling {
 }  // namespace
 
 BodyCells measure_cells(ParticleSet const& set, Body const& body) {
+  PIOLA_EXPECTS(set.dimension >= 1 && set.dimension <= 3);
+  PIOLA_EXPECTS(is_range_in(body, set));
+  PIOLA_EXPECTS(body.spacing[0] > 0 && body.spacing[1] > 0 && body.spacing[2] > 0);
   if (has_lattice_cells(body)) return moments_of_lattice(set, body);
   return Sampling(set, body)();
 }
 
 void take_cell_volumes(ParticleSet& set, Body const& body) {
+  PIOLA_EXPECTS(set.volume.size() == set.X.size());
   BodyCells const cells = measure_cells(set, body);
+  PIOLA_ENSURES(cells.cell.size() == static_cast<std::size_t>(body.last - body.first));
   for (auto id = body.first; id < body.last; ++id)
     set.volume[static_cast<std::size_t>(id)] = cells.cell[static_cast<std::size_t>(id - body.first)].volume;
 }

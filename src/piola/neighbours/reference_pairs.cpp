@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/neighbours/reference_pairs.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/math/solve.hpp"
 #include "piola/neighbours/cell_grid.hpp"
@@ -27,6 +28,15 @@ ReferencePairs::ReferencePairs(ParticleSet const& set, Body const& body, SlotOrd
       slots_(order.slots()),
       own_(options.own && !regular_ ? *options.own : Range{0, order.particles}),
       lattice_(body.lattice) {
+  PIOLA_EXPECTS(dimension_ >= 1 && dimension_ <= 3);
+  PIOLA_EXPECTS(body.first >= 0 && body.first < body.last);
+  PIOLA_EXPECTS(order.particles == body.last - body.first);
+  PIOLA_EXPECTS(options.kernel != nullptr);
+  PIOLA_EXPECTS(options.h_gradient > 0);
+  PIOLA_EXPECTS(!(options.h_laplacian > 0) || options.h_laplacian >= options.h_gradient);
+  PIOLA_EXPECTS(options.lanes >= 1);
+  PIOLA_EXPECTS(options.copies.source.size() == options.copies.X.size());
+  PIOLA_EXPECTS(!regular_ || options.copies.X.empty());
   double const sigma = options.kernel->sigma(dimension_);
   s_scale_ = sigma / std::pow(options.h_gradient, dimension_ + 1);
   if (options.h_laplacian > 0) {
@@ -391,11 +401,13 @@ bool ReferencePairs::correct(Index a, std::size_t at, TooFewNeighbours& refusal)
 }
 
 StencilTable ReferencePairs::stencil() const {
+  PIOLA_EXPECTS(regular_);
   return {offsets_.data(),    entries_.data(), patterns_.data(),
           pattern_of_.data(), weights_.data(), offset_kernel_.data()};
 }
 
 ListTable ReferencePairs::list() const {
+  PIOLA_EXPECTS(!regular_);
   return {list_begin_.data(),
           list_inner_.data(),
           list_neighbour_.data(),
@@ -405,6 +417,9 @@ ListTable ReferencePairs::list() const {
 }
 
 ReferencePairs::Filter ReferencePairs::make_filter(std::vector<double> const& volume, FilterShare const* share) const {
+  PIOLA_EXPECTS(options_.h_laplacian > 0);
+  PIOLA_EXPECTS(volume.size() >= static_cast<std::size_t>(particles_));
+  PIOLA_EXPECTS(share == nullptr || (share->tell != nullptr && share->allreduce_max != nullptr));
   constexpr int most = 200;
   constexpr double close = 1e-8;
   Range const own = share != nullptr ? share->own : Range{0, particles_};

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/particles/body_extents.hpp"
+#include "piola/base/contracts.hpp"
 #include <algorithm>
 
 namespace piola {
 
 BodyExtents extents_of(ParticleSet const& set, Body const& body) {
+  PIOLA_EXPECTS(is_range_in(body, set) && body.first < body.last);
+  PIOLA_EXPECTS(set.dimension >= 1 && set.dimension <= 3);
   BodyExtents ends{};
   ends.low = ends.high = set.X[static_cast<std::size_t>(body.first)];
   for (auto id = body.first; id < body.last; ++id)

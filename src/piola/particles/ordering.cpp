@@ -8,6 +8,10 @@ namespace piola {
 
 SlotOrder order_by_rows(ParticleSet const& set, Body const& body, std::array<std::size_t, 3> const& axis,
                         std::vector<std::size_t> const& rank) {
+  PIOLA_EXPECTS(body.first >= 0 && body.first <= body.last);
+  PIOLA_EXPECTS(body.last <= static_cast<std::int64_t>(set.lattice_index.size()));
+  PIOLA_EXPECTS(axis[0] < 3 && axis[1] < 3 && axis[2] < 3);
+  PIOLA_EXPECTS(axis[0] != axis[1] && axis[1] != axis[2] && axis[2] != axis[0]);
   auto const& lattice_index = set.lattice_index.seen();
   auto const row_of = [&](std::int64_t id) {
     auto const& at = lattice_index[static_cast<std::size_t>(id)];
@@ -38,6 +42,7 @@ SlotOrder order_by_rows(ParticleSet const& set, Body const& body, std::array<std
                last = order.id.begin() + static_cast<std::ptrdiff_t>(begin[r + 1]);
     if (!std::is_sorted(first, last, along)) std::sort(first, last, along);
   }
+  PIOLA_ENSURES(order.slots() % SlotOrder::alignment == 0 && order.slots() >= order.particles);
   return order;
 }
 
@@ -58,6 +63,7 @@ SlotOrder pencil_order(ParticleSet const& set, Body const& body) {
     for (std::size_t j = 0; j < wide; j += rows)
       for (std::size_t z = k; z < std::min(k + rows, high); ++z)
         for (std::size_t y = j; y < std::min(j + rows, wide); ++y) rank[z * wide + y] = next++;
+  PIOLA_ENSURES(next == rank.size());
   return order_by_rows(set, body, axis, rank);
 }
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/particles/part_properties.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/reproducible_sum.hpp"
 
 namespace piola {
 
 std::vector<PartProperties> part_properties(ParticleSet const& particles, Body const& body, std::size_t parts) {
+  PIOLA_EXPECTS(is_range_in(body, particles));
+  PIOLA_EXPECTS(particles.volume.size() == particles.X.size());
+  PIOLA_EXPECTS(particles.part.empty() || particles.part.size() == particles.X.size());
   std::vector<PartProperties> facts(parts + 1);
   std::vector<exec::ReproducibleSum> volumes(parts + 1);
   for (std::int64_t id = body.first; id < body.last; ++id) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/particles/particle_record.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/math/digest.hpp"
 #include <fmt/format.h>
@@ -51,10 +52,12 @@ std::string body_difference(std::vector<std::string> const& before, std::vector<
 
 std::string particle_record(ParticleSet const& particles) {
   std::string text;
-  for (Body const& body : particles.bodies)
+  for (Body const& body : particles.bodies) {
+    PIOLA_EXPECTS(is_range_in(body, particles));
     text += fmt::format("{}\t{}\t{}\t{}\t{}\n", body.name, body.last - body.first, hash_of(body, particles.X),
                         hash_of(body, particles.volume, particles.kernel_volume),
                         hash_of(body, particles.part, particles.crack_side));
+  }
   return text;
 }
 

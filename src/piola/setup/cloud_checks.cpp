@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/cloud_checks.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include <algorithm>
 #include <cmath>
@@ -135,6 +136,7 @@ void note_density(PointCloud& cloud, std::vector<CloudMoment> const& moments, Cl
 }  // namespace
 
 void check_cloud_numbers(PointCloud const& cloud, CloudSource const& source, std::vector<std::string>& problems) {
+  PIOLA_EXPECTS(source.row.size() == cloud.X.size());
   CloudProblems list(source.file, problems);
   auto const check_volume = [&](std::size_t i, double volume, std::string_view name) {
     if (volume > 0 && std::isfinite(volume)) return;
@@ -158,6 +160,7 @@ void check_cloud_numbers(PointCloud const& cloud, CloudSource const& source, std
 }
 
 void check_cloud_places(PointCloud& cloud, CloudSource const& source, std::vector<std::string>& problems) {
+  PIOLA_EXPECTS(cloud.volume.size() == cloud.X.size() && source.row.size() == cloud.X.size());
   auto const distance = check_distances(cloud, source, problems);
   if (!distance) return;
   double const median = *distance;

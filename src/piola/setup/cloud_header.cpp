@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/cloud_header.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/base/units.hpp"
 #include <algorithm>
@@ -162,6 +163,7 @@ class CloudHeaderReader {
 }  // namespace
 
 std::size_t cut_cloud_line(std::string_view line, char separator, std::vector<CloudField>& fields) {
+  PIOLA_EXPECTS(separator != '"');
   fields.clear();
   for (std::size_t at = 0; at <= line.size();) {
     std::size_t const start = std::min(line.find_first_not_of(" \t", at), line.size());

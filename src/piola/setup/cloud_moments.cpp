@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/kernels/wendland_c2.hpp"
 #include "piola/math/symmetric_eigen.hpp"
@@ -136,6 +137,7 @@ class CloudSurroundings {
 }  // namespace
 
 std::vector<NearestPoint> nearest_points(CloudPoints const& X) {
+  PIOLA_EXPECTS(X.size() >= 2);
   std::vector<NearestPoint> nearest(X.size());
   double const longest = longest_side(X);
   std::vector<std::size_t> left(X.size());
@@ -163,6 +165,8 @@ std::vector<NearestPoint> nearest_points(CloudPoints const& X) {
 }
 
 std::vector<CloudMoment> cloud_moments(PointCloud const& cloud) {
+  PIOLA_EXPECTS(cloud.dimension >= 1 && cloud.dimension <= 3 && cloud.spacing > 0);
+  PIOLA_EXPECTS(cloud.kernel_volume.size() == cloud.X.size());
   std::vector<CloudMoment> moments(cloud.X.size());
   CloudSurroundings const surroundings(cloud);
   exec_host::parallel_for(static_cast<Index>(cloud.X.size()), [&](Index i) {
@@ -172,6 +176,7 @@ std::vector<CloudMoment> cloud_moments(PointCloud const& cloud) {
 }
 
 WorstNeighbourhood worst_neighbourhood(std::vector<CloudMoment> const& moments) {
+  PIOLA_EXPECTS(!moments.empty());
   std::vector<double> means;
   means.reserve(moments.size());
   for (CloudMoment const& m : moments) means.push_back(m.mean_eigenvalue);
@@ -187,6 +192,7 @@ WorstNeighbourhood worst_neighbourhood(std::vector<CloudMoment> const& moments) 
 }
 
 WorstNeighbourhood worst_neighbourhood(ParticleSet const& particles, Body const& body) {
+  PIOLA_EXPECTS(is_range_in(body, particles) && body.first < body.last);
   PointCloud cloud;
   cloud.dimension = particles.dimension;
   for (int c = 0; c < particles.dimension; ++c)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/cloud_table.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/setup/cloud_header.hpp"
 #include <algorithm>
@@ -133,10 +134,12 @@ std::string refuse_text(std::string_view text) {
 }  // namespace
 
 std::string CloudSource::place(std::size_t point) const {
+  PIOLA_EXPECTS(point < row.size());
   return lines ? fmt::format("{}:{}", file, row[point]) : fmt::format("{}, particle {}", file, row[point]);
 }
 
 std::string CloudSource::name(std::size_t point) const {
+  PIOLA_EXPECTS(point < row.size());
   return fmt::format("{} {}", lines ? "line" : "particle", row[point]);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/contact_surface.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/math/array_conversion.hpp"
 #include "piola/setup/faces.hpp"
 #include "piola/setup/packed_bodies.hpp"
@@ -75,6 +76,8 @@ void add_patch_points(ShapeSpec const& shape, ParticleSet const& particles, Body
 }  // namespace
 
 contact::Surface contact_surface(ShapeSpec const& shape, ParticleSet const& particles, Body const& body) {
+  PIOLA_EXPECTS(shape.dimension == particles.dimension && is_range_in(body, particles));
+  PIOLA_EXPECTS(shape.kind != Kind::solid || shape.solid != nullptr);
   contact::Surface surface;
   surface.spacing = *std::max_element(body.spacing.begin(), body.spacing.begin() + particles.dimension);
   if (shape.kind == Kind::solid) {

@@ -129,6 +129,8 @@ void split(ParticleSet& set, std::size_t original) {
 }  // namespace
 
 CrackPath trace_crack(ParticleSet const& set, std::size_t body_number, Vec3 const& from, Vec3 const& to) {
+  PIOLA_EXPECTS(body_number < set.bodies.size() && is_range_in(set.bodies[body_number], set));
+  PIOLA_EXPECTS(set.lattice_index.size() == set.X.size());
   PIOLA_EXPECTS(set.dimension == 2);
   Body const& body = set.bodies[body_number];
   Line const line{from, to, 1e-6 * std::min(body.spacing[0], body.spacing[1])};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/faces.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/setup/packed_bodies.hpp"
 #include <algorithm>
 #include <cmath>
@@ -100,12 +101,16 @@ std::vector<FaceWeight> shares_of_patch(ShapeSpec const& shape, ParticleSet cons
 }  // namespace
 
 std::string face_text(ShapeSpec const& shape, Face const& face) {
+  PIOLA_EXPECTS(face.part != Face::Part::patch || shape.solid != nullptr);
+  PIOLA_EXPECTS(face.axis >= 0 && (face.part == Face::Part::patch || face.axis < 3));
   if (face.part == Face::Part::patch) return shape.solid->patches()[static_cast<std::size_t>(face.axis)].name;
   if (face.part != Face::Part::flat) return face.part == Face::Part::outer ? "outer" : "inner";
   return std::string(face.upper ? "+" : "-") + "xyz"[face.axis];
 }
 
 std::vector<std::int64_t> face_particles(ParticleSet const& particles, Body const& body, Face const& face) {
+  PIOLA_EXPECTS(is_range_in(body, particles));
+  PIOLA_EXPECTS(face.axis >= 0 && face.axis < 3);
   auto const axis = static_cast<std::size_t>(face.axis);
   int const layer = face.upper ? body.lattice[axis] - 1 : 0;
   std::vector<std::int64_t> ids;
@@ -135,6 +140,8 @@ double face_area(ShapeSpec const& shape, ParticleSet const& particles, std::int6
 
 std::vector<FaceWeight> face_weights(ShapeSpec const& shape, ParticleSet const& particles, Body const& body,
                                      Face const& face) {
+  PIOLA_EXPECTS(is_range_in(body, particles));
+  PIOLA_EXPECTS(face.part != Face::Part::patch || shape.solid_particles != nullptr);
   if (face.part == Face::Part::patch) return shares_of_patch(shape, particles, body, face.axis);
   if (face.part == Face::Part::flat) return flat_shares(shape, particles, body, face);
   bool const outer = face.part == Face::Part::outer;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/lattice_generator.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/math/hash.hpp"
 #include <algorithm>
@@ -166,6 +167,7 @@ BodyRow part_of_row(BodyRow row, std::int64_t first, std::int64_t last) {
 }  // namespace
 
 LatticeGenerator::LatticeGenerator(ShapeSpec const& shape) : shape_(shape), lattice_(lattice_of(shape)) {
+  PIOLA_EXPECTS(shape.kind != ShapeSpec::Kind::solid && shape.kind != ShapeSpec::Kind::points);
   for (int d = 0; d < shape.dimension; ++d) cell_ *= lattice_.spacing[static_cast<std::size_t>(d)];
   auto const [n, across, planes] = lattice_.count;
   if (shape.kind == ShapeSpec::Kind::box) {
@@ -188,6 +190,9 @@ std::int64_t LatticeGenerator::first_of_plane(int k) const {
 }
 
 std::vector<LatticeGenerator::Run> LatticeGenerator::runs(LatticeBox const& box) const {
+  PIOLA_EXPECTS(box.first[0] >= 0 && box.first[1] >= 0 && box.first[2] >= 0);
+  PIOLA_EXPECTS(box.last[0] <= lattice_.count[0] && box.last[1] <= lattice_.count[1] &&
+                box.last[2] <= lattice_.count[2]);
   std::vector<Run> all;
   for (int k = box.first[2]; k < box.last[2]; ++k) {
     std::int64_t id = first_of_plane(k);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/packed_bodies.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/stopped.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/exec/host_loops.hpp"
@@ -182,6 +183,8 @@ std::vector<PatchWeight> find_shares(ShapeSpec const& shape, ParticleSet const& 
 }  // namespace
 
 SolidParticles const& SolidParticles::of(ShapeSpec const& shape) {
+  PIOLA_EXPECTS(shape.kind == ShapeSpec::Kind::solid);
+  PIOLA_EXPECTS(shape.solid != nullptr && shape.solid_particles != nullptr);
   SolidParticles& own = *shape.solid_particles;
   std::call_once(own.once_, [&] { own.make(shape); });
   return own;
@@ -226,6 +229,7 @@ void SolidParticles::take(ShapeSpec const& shape) {
 }
 
 void SolidParticles::save(std::filesystem::path const& folder) const {
+  PIOLA_EXPECTS(keys_.size() == packings_.size());
   for (std::size_t k = 0; k < packings_.size() && !key.empty(); ++k) {
     if (packings_[k].X.empty()) continue;
     auto const path = folder / packing_name(keys_[k]);
@@ -234,6 +238,7 @@ void SolidParticles::save(std::filesystem::path const& folder) const {
 }
 
 void fill_solid(ShapeSpec const& shape, ParticleSet& set, Body& body) {
+  PIOLA_EXPECTS(shape.solid != nullptr && shape.spacing > 0);
   SolidParticles const& from = SolidParticles::of(shape);
   bool const packed = shape.arrangement == ShapeSpec::Arrangement::packed;
   body.spacing = {1, 1, 1};
@@ -258,6 +263,7 @@ void fill_solid(ShapeSpec const& shape, ParticleSet& set, Body& body) {
 }
 
 void fill_points(ShapeSpec const& shape, ParticleSet& set, Body& body) {
+  PIOLA_EXPECTS(shape.cloud != nullptr);
   PointCloud const& from = *shape.cloud;
   body.spacing = spacing_of(shape);
   body.regular = false;
@@ -278,11 +284,13 @@ void fill_points(ShapeSpec const& shape, ParticleSet& set, Body& body) {
 }
 
 std::vector<PatchWeight> patch_weights(ShapeSpec const& shape, ParticleSet const& particles, Body const& body) {
+  PIOLA_EXPECTS(shape.solid_particles != nullptr);
   return shape.solid_particles->shares(shape, particles, body);
 }
 
 std::vector<PatchWeight> SolidParticles::shares(ShapeSpec const& shape, ParticleSet const& particles,
                                                 Body const& body) {
+  PIOLA_EXPECTS(shape.solid != nullptr && is_range_in(body, particles));
   std::call_once(shared_, [&] { shares_ = find_shares(shape, particles, body); });
   std::vector<PatchWeight> shares = shares_;
   for (PatchWeight& share : shares) share.particle += body.first;
@@ -290,6 +298,7 @@ std::vector<PatchWeight> SolidParticles::shares(ShapeSpec const& shape, Particle
 }
 
 std::optional<geometry::Thinnest> SolidParticles::thinnest(ShapeSpec const& shape) {
+  PIOLA_EXPECTS(shape.solid != nullptr && shape.spacing > 0);
   std::call_once(measured_, [&] { thinnest_ = geometry::thinnest(*shape.solid, shape.spacing); });
   return thinnest_;
 }

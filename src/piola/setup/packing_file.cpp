@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/packing_file.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/read_file.hpp"
 #include "piola/math/digest.hpp"
 #include "piola/output/atomic_file.hpp"
@@ -165,6 +166,8 @@ std::optional<geometry::Packing> read_packing(std::filesystem::path const& path,
 
 void write_unfinished(std::filesystem::path const& path, std::string const& key,
                       geometry::UnfinishedPacking const& packing) {
+  PIOLA_EXPECTS(packing.listed.size() == packing.X.size() && packing.known_at.size() == packing.X.size());
+  PIOLA_EXPECTS(packing.away.size() == packing.X.size());
   write_content(path, unfinished_mark, key, packing);
 }
 

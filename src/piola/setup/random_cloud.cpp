@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/random_cloud.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/neighbours/particle_cells.hpp"
 #include <random>
 
@@ -25,6 +26,8 @@ std::vector<std::size_t> inner_particles(ShapeSpec const& shape, ParticleSet con
 }  // namespace
 
 void scatter(ShapeSpec const& shape, ParticleSet& set, Body const& body) {
+  PIOLA_EXPECTS(shape.kind == ShapeSpec::Kind::box);
+  PIOLA_EXPECTS(is_range_in(body, set));
   auto const inner = inner_particles(shape, set, body);
   auto const D = static_cast<std::size_t>(shape.dimension);
   std::mt19937 engine(shape.seed);

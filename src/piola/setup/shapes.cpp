@@ -133,6 +133,8 @@ void fill_lattice(ShapeSpec const& shape, ParticleSet& set, Body& body) {
 }  // namespace
 
 void fill(ShapeSpec const& shape, std::string const& name, ParticleSet& set) {
+  PIOLA_EXPECTS(!is_hypoelastic(shape) || shape.solid_particles != nullptr);
+  PIOLA_EXPECTS(!shape.random || shape.kind == ShapeSpec::Kind::box);
   PIOLA_EXPECTS(shape.dimension >= 1 && shape.dimension <= 3);
   Body body;
   body.name = name;
@@ -147,6 +149,9 @@ void fill(ShapeSpec const& shape, std::string const& name, ParticleSet& set) {
   else
     fill_lattice(shape, set, body);
   body.last = set.size();
+  PIOLA_ENSURES(is_range_in(body, set));
+  PIOLA_ENSURES(set.volume.size() == set.X.size() && set.kernel_volume.size() == set.X.size());
+  PIOLA_ENSURES(set.lattice_index.size() == set.X.size() && set.body.size() == set.X.size());
   if (!set.crack_side.empty()) set.crack_side.resize(set.X.size());
   set.dimension = shape.dimension;
   if (shape.random) scatter(shape, set, body);

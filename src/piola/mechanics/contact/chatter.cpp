@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/chatter.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include <algorithm>
 #include <cmath>
@@ -24,6 +25,8 @@ void for_members(HostParticles const& hosts, Index host, F const& f) {
 ChatterDamping::ChatterDamping(HostParticles const& hosts, std::vector<Surface> const& surfaces,
                                std::vector<double> const& shares, int dimension)
     : impulses_(hosts.ids().size()), is_damped_(hosts.ids().size()) {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
+  PIOLA_EXPECTS(shares.size() == surfaces.size());
   std::vector<double> around(hosts.ids().size());
   for (Index k = 0; k < hosts.count(); ++k) for_members(hosts, k, [&](std::size_t i) { around[i] += 1; });
   std::vector<char> known(at(hosts.count()));
@@ -77,6 +80,9 @@ ChatterDamping::Motion ChatterDamping::motion_of(Cluster const& cluster, HostPar
 }
 
 void ChatterDamping::look(HostParticles const& hosts, State const& now) {
+  PIOLA_EXPECTS(now.x.size() >= impulses_.size() && now.v.size() >= impulses_.size());
+  PIOLA_EXPECTS(now.inverse_masses.size() >= impulses_.size());
+  PIOLA_EXPECTS(clusters_.empty() || now.heat.size() == at(hosts.count()));
   for (Index const i : damped_) {
     impulses_[at(i)] = {};
     is_damped_[at(i)] = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/colour_contact.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/kernels/wendland_c2.hpp"
 #include "piola/mechanics/contact/blended_planes.hpp"
@@ -35,6 +36,8 @@ double ColourKernel::slope(double r) const {
 
 /// By sums over the layer in which a plane at distance z cuts the kernel: Simpson's rule, 64 intervals each.
 ColourKernel::Colour ColourKernel::of_half_space(double d) const {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3 && support > 0);
+  PIOLA_EXPECTS(d >= 0);
   constexpr int intervals = 64;
   auto const simpson = [](double from, double to, auto const& f) {
     double const h = (to - from) / intervals;
@@ -58,7 +61,9 @@ ColourContact::ColourContact(int dimension, std::vector<Body> bodies, std::vecto
     : bodies_(std::move(bodies)), pairs_(std::move(pairs)), on_first_(pairs_.size()) {
   for (std::size_t p = 0; p < pairs_.size(); ++p)
     for (auto const& [body, other] : {std::pair{pairs_[p].a, pairs_[p].b}, std::pair{pairs_[p].b, pairs_[p].a}}) {
+      PIOLA_EXPECTS(body < bodies_.size() && other < bodies_.size() && body != other);
       Body const &a = bodies_[body], &b = bodies_[other];
+      PIOLA_EXPECTS(a.volume.size() == a.at.size() && a.spacing > 0 && a.modulus > 0);
       PairRule const rule = pair_rule(pairs_[p].factor, a.modulus, a.spacing, b.modulus, b.spacing);
       Pass pass{p,  body, other, {dimension, support_in_spacings * std::max(a.spacing, b.spacing)}, 0, 0, 0, 0,
                 {}, {},   {}};
@@ -187,6 +192,7 @@ void ColourContact::push(Pass const& pass, std::size_t target, Seen const& seen,
 }
 
 void ColourContact::evaluate(std::vector<Vec<3>> const& x, std::vector<double> const& masses) {
+  PIOLA_EXPECTS(!any() || masses.size() == x.size());
   if (!any()) return;
   if (forces_.size() != x.size()) {
     forces_.assign(x.size(), {});
@@ -218,6 +224,7 @@ void ColourContact::evaluate(std::vector<Vec<3>> const& x, std::vector<double> c
 }
 
 double ColourContact::contact_time_step(std::vector<Vec<3>> const& x, std::vector<Vec<3>> const& v) const {
+  PIOLA_EXPECTS(!any() || v.size() == x.size());
   double step = std::numeric_limits<double>::infinity();
   for (Pass const& pass : passes_) {
     double const dp = 2 * pass.length;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/contracts.hpp"
 #include "piola/mechanics/contact/surface_contact.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
@@ -77,12 +78,15 @@ void SurfaceContactSystem::list_sources(std::size_t b, std::vector<Index> const&
 }
 
 void SurfaceContactSystem::exclude_pair(std::size_t body, std::size_t point, std::size_t other, bool out) {
+  PIOLA_EXPECTS(body < surfaces_.size() && point < surfaces_[body].points.size());
+  PIOLA_EXPECTS(other < others());
   left_out_.resize(points_.size() * others());
   left_out_[place_of(body, point) * others() + other] = out ? 1 : 0;
   listed_at_.clear();
 }
 
 void SurfaceContactSystem::drop(std::vector<char> const& lost) {
+  PIOLA_EXPECTS(lost.size() == ids().size());
   dropped_.resize(points_.size());
   for (std::size_t k = 0; k < points_.size(); ++k)
     if (lost[at(hosts_.self(points_[k].host))] != 0) dropped_[k] = 1;
@@ -90,6 +94,8 @@ void SurfaceContactSystem::drop(std::vector<char> const& lost) {
 }
 
 double SurfaceContactSystem::stored_at(std::size_t body, std::size_t point, std::size_t other) const {
+  PIOLA_EXPECTS(body < surfaces_.size() && point < surfaces_[body].points.size());
+  PIOLA_EXPECTS(other < others());
   std::size_t const target = place_of(body, point);
   if (other >= surfaces_.size()) {
     std::size_t const r = other - surfaces_.size();

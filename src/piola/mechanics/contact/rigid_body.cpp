@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/rigid_body.hpp"
+#include "piola/base/contracts.hpp"
 
 namespace piola::contact {
 namespace {
@@ -15,6 +16,8 @@ RigidBody::RigidBody(RigidShape const& shape, int dimension)
       inertia_(inertia_of(shape, dimension)),
       held_(shape.held),
       can_turn_(shape.can_turn) {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
+  PIOLA_EXPECTS(mass_ > 0);
   Vec<3> rate;
   for (int c = 0; c < 3; ++c) {
     velocity[c] = shape.velocity[static_cast<std::size_t>(c)]({});

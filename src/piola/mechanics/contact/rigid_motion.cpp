@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/rigid_motion.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/math/array_conversion.hpp"
 #include "piola/mechanics/contact/state_vector.hpp"
 #include <algorithm>
@@ -22,6 +23,7 @@ Vec<3> value_at(std::array<Expression, 3> const& formulas, double time) {
 
 RigidMotion::RigidMotion(std::vector<RigidShape> const& shapes, int dimension, RigidPairs::Setting const& between)
     : dimension_(dimension), pairs_(shapes, dimension, between) {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
   for (RigidShape const& given : shapes) {
     Shape shape{given, vector_of(given.axis), {}, {}, 0, value_at(given.angular_velocity, 0)};
     if (given.free) shape.body.emplace(given, dimension);
@@ -31,6 +33,7 @@ RigidMotion::RigidMotion(std::vector<RigidShape> const& shapes, int dimension, R
 }
 
 void RigidMotion::place(std::vector<RigidSurface>& surfaces) const {
+  PIOLA_EXPECTS(surfaces.size() == shapes_.size());
   for (std::size_t k = 0; k < shapes_.size(); ++k) {
     Shape const& shape = shapes_[k];
     RigidSurface& surface = surfaces[k];
@@ -61,6 +64,7 @@ void RigidMotion::drive(Shape& shape, RigidSurface& surface, double time, double
 }
 
 void RigidMotion::move(std::vector<RigidSurface>& surfaces, double time, double dt) {
+  PIOLA_EXPECTS(surfaces.size() == shapes_.size());
   for (std::size_t k = 0; k < shapes_.size(); ++k) {
     if (shapes_[k].body)
       shapes_[k].body->drift(dt);
@@ -81,16 +85,19 @@ void RigidMotion::bound_frequency(SurfaceContactSystem const& bodies) {
 }
 
 void RigidMotion::start(SurfaceContactSystem const& bodies) {
+  PIOLA_EXPECTS(bodies.rigids().size() == shapes_.size());
   pairs_.start(bodies.rigids());
   bound_frequency(bodies);
 }
 
 void RigidMotion::evaluate(SurfaceContactSystem const& bodies, double dt) {
+  PIOLA_EXPECTS(bodies.rigids().size() == shapes_.size());
   pairs_.evaluate(bodies.rigids(), dt);
   bound_frequency(bodies);
 }
 
 RigidPairs::Load RigidMotion::on(SurfaceContactSystem const& bodies, std::size_t shape) const {
+  PIOLA_EXPECTS(shape < shapes_.size());
   ForceMoment const by_bodies = bodies.resultant_on_rigid(shape);
   RigidPairs::Load const& by_shapes = pairs_.on(shape);
   return {by_bodies.force + by_shapes.force, by_bodies.moment + by_shapes.moment};
@@ -154,6 +161,7 @@ Vec<3> RigidMotion::angular_momentum() const {
 }
 
 std::vector<RigidState> RigidMotion::states(std::vector<RigidSurface> const& surfaces) const {
+  PIOLA_EXPECTS(surfaces.size() == shapes_.size());
   std::vector<RigidState> all;
   for (std::size_t k = 0; k < shapes_.size(); ++k) {
     Shape const& shape = shapes_[k];

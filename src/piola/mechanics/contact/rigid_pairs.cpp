@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/rigid_pairs.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/mechanics/contact/state_vector.hpp"
 #include "piola/mechanics/contact/surface_contact.hpp"
 #include "piola/mechanics/rigid_mass.hpp"
@@ -35,6 +36,8 @@ bool is_hypoelastic(RigidShape const& shape) { return shape.kind == Kind::box ||
 
 RigidPairs::RigidPairs(std::vector<RigidShape> const& shapes, int dimension, Setting const& setting)
     : setting_(setting), samples_(shapes.size()), loads_(shapes.size()), frequency2_(shapes.size()) {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
+  PIOLA_EXPECTS(setting.stiffness >= 0 && setting.spacing >= 0);
   for (std::size_t a = 0; a < shapes.size(); ++a)
     for (std::size_t b = 0; b < shapes.size(); ++b) {
       RigidShape const &one = shapes[a], &other = shapes[b];
@@ -147,6 +150,7 @@ void RigidPairs::push(std::size_t pair, std::size_t point, PairSetting const& to
 }
 
 void RigidPairs::start(std::vector<RigidSurface> const& shapes) {
+  PIOLA_EXPECTS(shapes.size() == loads_.size());
   remember(shapes);
   evaluate(shapes, 0);
 }
@@ -157,6 +161,7 @@ void RigidPairs::remember(std::vector<RigidSurface> const& shapes) {
 }
 
 void RigidPairs::evaluate(std::vector<RigidSurface> const& shapes, double dt) {
+  PIOLA_EXPECTS(pairs_.empty() || last_.size() == shapes.size());
   dt_ = dt;
   std::swap(stuck_, last_stuck_);
   stuck_.clear();
@@ -171,6 +176,7 @@ void RigidPairs::evaluate(std::vector<RigidSurface> const& shapes, double dt) {
 }
 
 double RigidPairs::frequency2(std::vector<double>& of_shapes) const {
+  PIOLA_EXPECTS(of_shapes.size() == frequency2_.size());
   for (std::size_t k = 0; k < of_shapes.size(); ++k) of_shapes[k] += frequency2_[k];
   double largest = 0;
   for (Pair const& p : pairs_)
@@ -179,6 +185,7 @@ double RigidPairs::frequency2(std::vector<double>& of_shapes) const {
 }
 
 double RigidPairs::contact_time_step(std::vector<RigidSurface> const& shapes) const {
+  PIOLA_EXPECTS(shapes.size() == loads_.size());
   double step = std::numeric_limits<double>::infinity();
   for (Pair const& p : pairs_)
     if (double const omega2 = frequency2_[p.a] + frequency2_[p.b]; omega2 > 0)
@@ -210,6 +217,7 @@ std::vector<double> RigidPairs::state() const {
 }
 
 void RigidPairs::restore(std::vector<RigidSurface> const& shapes, std::vector<double> const& state) {
+  PIOLA_EXPECTS(shapes.size() == loads_.size());
   remember(shapes);
   StateVector from(state);
   totals_ = {from.next(), from.next(), from.next(), from.next(), from.next()};

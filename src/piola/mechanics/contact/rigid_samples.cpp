@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/rigid_samples.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/math/array_conversion.hpp"
 #include <algorithm>
 #include <array>
@@ -84,6 +85,8 @@ std::vector<SurfaceSample> of_cylinder(RigidShape const& shape) {
 }  // namespace
 
 std::vector<SurfaceSample> samples_of(RigidShape const& shape, int dimension) {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
+  PIOLA_EXPECTS(shape.kind == RigidShape::Kind::box || shape.kind == RigidShape::Kind::cylinder);
   return shape.kind == RigidShape::Kind::box ? of_box(shape, dimension) : of_cylinder(shape);
 }
 

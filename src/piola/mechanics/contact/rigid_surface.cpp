@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/rigid_surface.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/math/array_conversion.hpp"
 #include <algorithm>
 #include <cmath>
@@ -86,6 +87,7 @@ bool crosses(Vec<3> const& from, Vec<3> const& to, int c, int side, Vec<3> const
 }  // namespace
 
 RigidSurface surface_of(RigidShape const& shape, int dimension) {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
   auto const &v = shape.velocity, &w = shape.angular_velocity;
   RigidSurface surface{shape.kind,
                        dimension,
@@ -141,6 +143,7 @@ Distance distance_from(RigidSurface const& shape, Vec<3> const& x, Sides const& 
 }
 
 std::array<bool, 3> thin_along(RigidSurface const& shape, double length) {
+  PIOLA_EXPECTS(length > 0);
   std::array<bool, 3> thin{};
   if (shape.kind == RigidSurface::Kind::box)
     for (int c = 0; c < shape.dimension; ++c) thin[static_cast<std::size_t>(c)] = 2 * shape.half_lengths[c] < length;

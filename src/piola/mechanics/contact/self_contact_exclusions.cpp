@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/self_contact_exclusions.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
@@ -66,6 +67,7 @@ class Bonds {
 
 SelfContactExclusions::SelfContactExclusions(ParticleSet const& particles, std::size_t b, HostParticles const& hosts,
                                              double spacing) {
+  PIOLA_EXPECTS(b < particles.bodies.size() && is_range_in(particles.bodies[b], particles));
   Body const& body = particles.bodies[b];
   Bonds const bonds(particles, body, spacing);
   constexpr Index none = -1;

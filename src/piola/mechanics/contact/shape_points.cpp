@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/shape_points.hpp"
+#include "piola/base/contracts.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -63,7 +64,9 @@ ShapePoints::ShapePoints(RigidSurface const& shape, double spacing)
       spacing_(spacing),
       step_(spacing / (shape.dimension == 3 ? 3 : 4)),
       thin_round_((shape.kind == Kind::sphere || shape.kind == Kind::cylinder) &&
-                  2 * shape.radius < thin_below * spacing) {}
+                  2 * shape.radius < thin_below * spacing) {
+  PIOLA_EXPECTS(spacing > 0);
+}
 
 bool ShapePoints::any() const {
   return shape_.kind == Kind::box || shape_.kind == Kind::cylinder || (shape_.kind == Kind::sphere && thin_round_);

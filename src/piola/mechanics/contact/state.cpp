@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/contracts.hpp"
 #include "piola/mechanics/contact/state_vector.hpp"
 #include "piola/mechanics/contact/surface_contact.hpp"
 #include <algorithm>
@@ -104,6 +105,7 @@ void SurfaceContactSystem::place_anew(std::vector<Vec<3>> const& x) {
 }
 
 void SurfaceContactSystem::restore(std::vector<Vec<3>> const& x, std::vector<double> const& state) {
+  PIOLA_EXPECTS(x.size() >= ids().size());
   StateVector from(state);
   take_sides(from);
   place_anew(x);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/base/contracts.hpp"
 #include "piola/math/tensor.hpp"
 #include <cstddef>
 #include <vector>
@@ -13,8 +14,15 @@ class StateVector {
  public:
   explicit StateVector(std::vector<double> const& all) : from_(all.begin()), end_(all.end()) {}
   bool any() const { return from_ < end_; }
-  double next() { return *from_++; }
-  std::size_t count() { return static_cast<std::size_t>(next()); }
+  double next() {
+    PIOLA_EXPECTS(any());
+    return *from_++;
+  }
+  std::size_t count() {
+    double const number = next();
+    PIOLA_EXPECTS(number >= 0);
+    return static_cast<std::size_t>(number);
+  }
   void take(Vec<3>& a) {
     for (double& c : a.c) c = next();
   }

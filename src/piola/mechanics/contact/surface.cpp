@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/surface.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/math/solve.hpp"
 #include "piola/neighbours/cell_grid.hpp"
@@ -99,10 +100,13 @@ Stencil stencil_of(ParticleSet const& set, Body const& body, Around const& aroun
 
 HostParticles::HostParticles(ParticleSet const& particles, std::vector<Surface> const& surfaces)
     : dimension_(particles.dimension), of_(surfaces.size()), begin_{0} {
+  PIOLA_EXPECTS(dimension_ >= 1 && dimension_ <= 3);
+  PIOLA_EXPECTS(surfaces.size() <= particles.bodies.size());
   std::vector<Stencil> stencils;
   std::vector<std::int64_t> particle;  // of each host
   for (std::size_t b = 0; b < surfaces.size(); ++b) {
     if (surfaces[b].points.empty()) continue;
+    PIOLA_EXPECTS(surfaces[b].spacing > 0);
     Body const& body = particles.bodies[b];
     Around const around(particles, body, reaches.back() * surfaces[b].spacing);
     std::map<std::int64_t, Index> known;

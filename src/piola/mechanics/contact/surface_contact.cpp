@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/surface_contact.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include <algorithm>
 #include <limits>
@@ -56,6 +57,7 @@ SurfaceContactSystem::SurfaceContactSystem(ParticleSet const& particles, std::ve
 
 /// Sets up friction of a body, and its contact with thin or narrow rigid shapes.
 void SurfaceContactSystem::look_at_others(std::size_t body) {
+  PIOLA_EXPECTS(setting_[body].size() >= others());
   for (PairSetting const& touch : setting_[body])
     has_friction_ = has_friction_ || (touch.is_active && touch.friction.any());
   Surface const& surface = surfaces_[body];
@@ -83,6 +85,7 @@ void SurfaceContactSystem::look_at_others(std::size_t body) {
 }
 
 void SurfaceContactSystem::set_masses(std::vector<double> const& masses) {
+  PIOLA_EXPECTS(masses.size() == inverse_mass_.size());
   for (std::size_t k = 0; k < masses.size(); ++k) inverse_mass_[k] = masses[k] > 0 ? 1 / masses[k] : 0;
 }
 
@@ -236,6 +239,7 @@ void SurfaceContactSystem::add_force(Index id, Vec<3> const& f) {
 }
 
 void SurfaceContactSystem::start(std::vector<Vec<3>> const& x) {
+  PIOLA_EXPECTS(x.size() >= ids().size());
   remember(x);
   evaluate(x, 0);
 }
@@ -247,6 +251,7 @@ void SurfaceContactSystem::remember(std::vector<Vec<3>> const& x) {
 }
 
 void SurfaceContactSystem::evaluate(std::vector<Vec<3>> const& x, double dt) {
+  PIOLA_EXPECTS(x.size() >= ids().size());
   if (has_friction_) {
     std::swap(F_, last_F_);
     std::swap(knows_F_, knows_last_F_);
@@ -326,6 +331,7 @@ void SurfaceContactSystem::add_velocities_of(std::vector<Vec<3>> const& x) {
 }
 
 double SurfaceContactSystem::contact_time_step(std::vector<Vec<3>> const& v) const {
+  PIOLA_EXPECTS(v.size() >= ids().size());
   double step = std::min(closing_step_of_shapes(v), crossing_step(v));
   auto const velocity = [&](Index point) { return v[at(hosts_.self(points_[at(point)].host))]; };
   for (Run const& run : runs_) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/contracts.hpp"
 #include "piola/mechanics/contact/surface_contact.hpp"
 #include <algorithm>
 #include <cmath>
@@ -27,11 +28,13 @@ void SurfaceContactSystem::trace(Index point, double slid, double heat) {
 }
 
 void SurfaceContactSystem::damp_chatter(std::vector<double> const& shares) {
+  PIOLA_EXPECTS(shares.size() == surfaces_.size());
   chatter_ = ChatterDamping(hosts_, surfaces_, shares, hosts_.dimension());
   if (damps_chatter()) heat_.resize(at(hosts_.count()));
 }
 
 ChatterDamping const& SurfaceContactSystem::chatter(std::vector<Vec<3>> const& x, std::vector<Vec<3>> const& v) {
+  PIOLA_EXPECTS(has_friction_);
   chatter_.look(hosts_, {x, v, inverse_mass_, heat_, dt_});
   return chatter_;
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/math/array_conversion.hpp"
 #include "piola/mechanics/contact/ties.hpp"
@@ -58,9 +59,12 @@ struct Ties::Binding {
 Ties::Ties(std::vector<TieRule> rules, ParticleSet const& set, std::vector<Surface> const& surfaces,
            HostParticles const& hosts, std::vector<Vec<3>> const& x, std::vector<RigidSurface> const& rigids)
     : rules_(std::move(rules)), found_(rules_.size()), on_first_(rules_.size()), on_rigid_(rigids.size()) {
+  PIOLA_EXPECTS(rules_.empty() || x.size() >= hosts.ids().size());
   if (rules_.empty()) return;
   Binding const at(set, surfaces, hosts, x);
   for (std::size_t tie = 0; tie < rules_.size(); ++tie) {
+    PIOLA_EXPECTS(!rules_[tie].rigid || *rules_[tie].rigid < rigids.size());
+    PIOLA_EXPECTS(rules_[tie].bodies[0] < surfaces.size() && rules_[tie].bodies[1] < surfaces.size());
     if (rules_[tie].rigid) {
       bind_to_rigid(tie, rigids[*rules_[tie].rigid], at);
       continue;

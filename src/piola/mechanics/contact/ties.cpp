@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/ties.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include <algorithm>
 
@@ -53,6 +54,7 @@ void Ties::stretch(std::size_t r, HostParticles const& hosts, std::vector<Vec<3>
 }
 
 void Ties::evaluate(HostParticles const& hosts, std::vector<Vec<3>> const& x, std::vector<RigidSurface> const& rigids) {
+  PIOLA_EXPECTS(rows_.empty() || x.size() >= forces_.size());
   released_.clear();
   for (std::size_t r = 0; r < rows_.size(); ++r)
     if (!has_failed(r)) released_.push_back(r);
@@ -108,6 +110,7 @@ Vec<3> Ties::turn(Row const& row, Vec<3> const& by_normal, HostParticles const& 
 }
 
 double Ties::springs_of_shape(std::size_t shape, std::vector<RigidSurface> const& rigids) const {
+  PIOLA_EXPECTS(shape < rigids.size());
   exec::ReproducibleSum sum;
   for (Row const& row : rows_)
     if (row.rigid == shape)
@@ -123,6 +126,7 @@ std::vector<double> Ties::state() const {
 }
 
 void Ties::restore(std::vector<double> const& state) {
+  PIOLA_EXPECTS(state.size() == 2 * rows_.size());
   auto const half = state.begin() + static_cast<std::ptrdiff_t>(rows_.size());
   opened_.assign(state.begin(), half);
   lost_.assign(half, state.end());
