@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/pictures/panel_pictures.hpp"
+#include "piola/base/contracts.hpp"
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -63,6 +64,7 @@ void give_one_size(std::span<Window> windows) {
 }
 
 std::string with_other_fields(std::string name, std::span<PictureSpec const> panels) {
+  PIOLA_EXPECTS(!panels.empty());
   std::set<std::string> known{panels.front().field};
   for (PictureSpec const& panel : panels)
     if (known.insert(panel.field).second) name.insert(name.rfind('-'), "-" + panel.field);
@@ -80,6 +82,8 @@ Image draw_sheet(std::span<Panel const> panels, Sheet const& sheet, PictureSpec 
 }
 
 Image draw_together(std::span<PanelPicture const> panels, PicturesSpec const& pictures, Window const& all) {
+  PIOLA_EXPECTS(!panels.empty());
+  PIOLA_EXPECTS(pictures.panels.empty() || pictures.panels.size() == panels.size());
   PanelPicture const& first = panels.front();
   if (pictures.panels.empty()) return draw_picture(first.data, first.style, first.window);
   int const columns = pictures.columns > 0 ? std::min(pictures.columns, static_cast<int>(panels.size()))
