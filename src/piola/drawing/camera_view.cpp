@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/drawing/camera_view.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/drawing/vector_math.hpp"
 #include <algorithm>
 #include <cmath>
@@ -101,6 +102,7 @@ Point centre_of(Subject const& subject, int body) {
 }  // namespace
 
 View View::in(int dimension) const {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
   if (dimension == 3) return *this;
   return {0, 0, upwards == Up::z ? Up::y : upwards == Up::minus_z ? Up::minus_y : upwards, roll};
 }
@@ -139,6 +141,7 @@ void Window::include(View const& view, std::span<Point const> points, double mar
 }
 
 void Window::include(View const& view, Subject const& subject) {
+  PIOLA_EXPECTS(subject.volume.empty() || subject.volume.size() == subject.points.size());
   Extent const most_x = most_of(subject, view.right()), most_y = most_of(subject, view.up());
   auto x = without_strays(subject, view.right(), most_x, most_y.size()),
        y = without_strays(subject, view.up(), most_y, most_x.size());
@@ -183,6 +186,7 @@ double Eye::shift(Point const& p, double other) const {
 }
 
 Eye eye_before(Camera const& camera, double angle, Point const& low, Point const& high) {
+  PIOLA_EXPECTS(angle >= 0 && angle < 180);
   Point const diagonal = minus(high, low);
   double const half = length(diagonal) / 2;
   if (!(angle > 0) || !(half > 0)) return {};
@@ -191,12 +195,14 @@ Eye eye_before(Camera const& camera, double angle, Point const& low, Point const
 }
 
 Eye eye_at(Camera const& camera, Subject const& now) {
+  PIOLA_EXPECTS(camera.follow < 0 || now.body.size() == now.points.size());
   Eye eye = camera.eye;
   if (eye.near() && camera.follow >= 0) eye.axis = centre_of(now, camera.follow);
   return eye;
 }
 
 void include(Window& window, Camera const& camera, Subject const& subject) {
+  PIOLA_EXPECTS(camera.follow < 0 || subject.body.size() == subject.points.size());
   if (camera.follow < 0 && !camera.eye.near()) return window.include(camera.view, subject);
   Eye const eye = eye_at(camera, subject);
   Point const centre = camera.follow < 0 ? Point{} : centre_of(subject, camera.follow);
@@ -211,6 +217,8 @@ void include(Window& window, Camera const& camera, Subject const& subject) {
 }
 
 Window shown_window(Window const& all, Camera const& camera, Subject const& now) {
+  PIOLA_EXPECTS(camera.zoom > 0);
+  PIOLA_EXPECTS(camera.follow < 0 || now.body.size() == now.points.size());
   auto const right = camera.view.right(), up = camera.view.up();
   double x = (all.x0 + all.x1) / 2, y = (all.y0 + all.y1) / 2;
   if (camera.follow >= 0) {

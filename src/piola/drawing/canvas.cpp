@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/drawing/canvas.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include <algorithm>
 #include <cairo/cairo.h>
@@ -74,6 +75,8 @@ struct Canvas::Drawing {
         height(below.height),
         transparent(!below.alpha.empty()),
         surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height)) {
+    PIOLA_EXPECTS(below.rgb.size() == 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    PIOLA_EXPECTS(below.alpha.empty() || 3 * below.alpha.size() == below.rgb.size());
     for (int y = 0; y < height; ++y)
       if (unsigned char* const row = row_of(y)) put_row(below, y, row);
     cairo_surface_mark_dirty(surface);
@@ -125,6 +128,7 @@ Canvas::Canvas(Image const& below) : drawing_(std::make_unique<Drawing>(below)) 
 Canvas::~Canvas() = default;
 
 void Canvas::write(double x, double y, std::string_view text, TextStyle const& letters, Align align) {
+  PIOLA_EXPECTS(letters.size > 0);
   std::string const words = drawable(text);
   choose_font(drawing_->context, letters.size);
   drawing_->paint_with(letters.colour);
@@ -142,6 +146,7 @@ void Canvas::write_upwards(double x, double y, std::string_view text, TextStyle 
 }
 
 void Canvas::line(std::span<std::array<double, 2> const> points, double width, Colour colour) {
+  PIOLA_EXPECTS(width > 0);
   drawing_->path(points);
   drawing_->paint_with(colour);
   cairo_set_line_width(drawing_->context, width);
@@ -155,6 +160,7 @@ void Canvas::area(std::span<std::array<double, 2> const> corners, Colour colour)
 }
 
 double Canvas::width_of(std::string_view text, double size) const {
+  PIOLA_EXPECTS(size > 0);
   choose_font(drawing_->context, size);
   return width_in(drawing_->context, drawable(text));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/drawing/draw_bodies.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/drawing/feature_lines.hpp"
 #include "piola/drawing/ground_shadow.hpp"
 #include "piola/drawing/rigid_picture.hpp"
@@ -189,6 +190,8 @@ Image pasted(Image const& drawn, Part const& part, SceneArea const& area, std::o
 
 Image draw_bodies(PictureData const& data, Appearance const& appearance, Projection const& whole, SceneArea const& area,
                   ColourMap const& map, std::optional<Colour> background) {
+  PIOLA_EXPECTS(area.width > 0 && area.height > 0);
+  PIOLA_EXPECTS(data.dimension >= 1 && data.dimension <= 3);
   int const fine = samples_across(appearance.quality);
   Scene scene = make_scene(data, appearance, whole, fine);
   if (whole.eye.near()) {

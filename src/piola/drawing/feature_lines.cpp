@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/drawing/feature_lines.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/neighbours/cell_facets.hpp"
 #include <algorithm>
 #include <cmath>
@@ -162,6 +163,8 @@ std::vector<Polyline> silhouette(ReferenceMesh const& mesh, Point3 const& toward
 }
 
 void DashedLines::draw(std::vector<Polyline> const& lines, int columns, int rows, std::vector<float>& coverage) const {
+  PIOLA_EXPECTS(fine >= 1 && columns >= 0 && rows >= 0);
+  PIOLA_EXPECTS(coverage.size() == static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   double const period = (dash + gap) * fine, on = dash * fine;
   for (Polyline const& line : lines) {
     double way = 0;  // from the start of the line [samples]

@@ -9,6 +9,8 @@ namespace piola {
 
 Film::Film(std::filesystem::path path, int width, int height, FilmPace const& pace)
     : path_(std::move(path)), width_(width), height_(height) {
+  PIOLA_EXPECTS(width > 0 && height > 0);
+  PIOLA_EXPECTS(pace.pictures_per_second > 0 && pace.hold_end >= 0);
   auto const extension = path_.extension();
   if (extension == ".webp")
     maker_ = make_webp(path_, width, height, pace);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/drawing/image.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/output/checksum_trailer.hpp"
@@ -66,18 +67,24 @@ void take_apart(std::vector<std::uint8_t> const& mixed, Image& image) {
 }  // namespace
 
 Image::Image(int columns, int rows, Colour background) : width(columns), height(rows) {
+  PIOLA_EXPECTS(columns >= 0 && rows >= 0);
   rgb.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   for (std::size_t i = 0; i < rgb.size(); i += 3) std::copy(background.begin(), background.end(), &rgb[i]);
 }
 
 Colour Image::at(int x, int y) const {
+  PIOLA_EXPECTS(x >= 0 && x < width && y >= 0 && y < height);
   auto const* p = &rgb[offset(*this, x, y)];
   return {p[0], p[1], p[2]};
 }
 
-void Image::set(int x, int y, Colour colour) { std::copy(colour.begin(), colour.end(), &rgb[offset(*this, x, y)]); }
+void Image::set(int x, int y, Colour colour) {
+  PIOLA_EXPECTS(x >= 0 && x < width && y >= 0 && y < height);
+  std::copy(colour.begin(), colour.end(), &rgb[offset(*this, x, y)]);
+}
 
 Image reduce(Image const& fine, int factor) {
+  PIOLA_EXPECTS(factor >= 1);
   Image out(fine.width / factor, fine.height / factor, {0, 0, 0});
   int const samples = factor * factor;
   for (int y = 0; y < out.height; ++y) {
@@ -96,6 +103,7 @@ Image reduce(Image const& fine, int factor) {
 }
 
 Image without_background(Image const& on_black, Image const& on_white) {
+  PIOLA_EXPECTS(on_black.width == on_white.width && on_black.height == on_white.height);
   Image out = on_black;
   out.alpha.resize(out.rgb.size() / 3);
   for (std::size_t i = 0; i < out.alpha.size(); ++i) {
@@ -112,6 +120,8 @@ Image without_background(Image const& on_black, Image const& on_white) {
 }
 
 void write_png(std::filesystem::path const& path, Image const& image) {
+  PIOLA_EXPECTS(image.rgb.size() == 3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+  PIOLA_EXPECTS(image.alpha.empty() || 3 * image.alpha.size() == image.rgb.size());
   bool const opaque = image.alpha.empty();
   png_image header = png_header(image.width, image.height);
   if (!opaque) header.format = PNG_FORMAT_RGBA;

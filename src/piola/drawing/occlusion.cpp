@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/contracts.hpp"
 #include "piola/drawing/shade.hpp"
 #include "piola/exec/host_loops.hpp"
 #include <algorithm>
@@ -121,6 +122,8 @@ PixelSurface::PixelSurface(SurfaceBuffers const& samples, int fine)
 
 std::vector<float> openness(PixelSurface const& surface, std::span<float const> around, float ball_radius,
                             int directions) {
+  PIOLA_EXPECTS(around.size() == surface.depth.size());
+  PIOLA_EXPECTS(directions >= 1);
   auto const pixels = surface.depth.size();
   std::vector<float> open(pixels, 1);
   // Not below two pixels, where there is nothing to see, and not so far that taps are strewn.

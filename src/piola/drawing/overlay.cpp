@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/drawing/overlay.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/drawing/canvas.hpp"
 #include "piola/drawing/ticks.hpp"
 #include <algorithm>
@@ -155,7 +156,10 @@ ThemeColours colours_of(Theme theme) {
   return {{255, 255, 255}, {40, 44, 52}, {110, 116, 126}};
 }
 
-std::string TimeFormat::text(double time) const { return fmt::format("{:.{}f} {}", time / factor, decimals, unit); }
+std::string TimeFormat::text(double time) const {
+  PIOLA_EXPECTS(factor > 0 && decimals >= 0);
+  return fmt::format("{:.{}f} {}", time / factor, decimals, unit);
+}
 
 TimeFormat time_format(double longest, double step) {
   constexpr int most = 6;
@@ -169,6 +173,7 @@ TimeFormat time_format(double longest, double step) {
 }
 
 Layout layout_of(int width, int height, std::string_view title, bool letters) {
+  PIOLA_EXPECTS(width > 0 && height > 0);
   Layout at{.width = width, .height = height};
   double const area = std::sqrt(static_cast<double>(width) * height / 800000.0);
   at.unit = std::min({std::max(area, 0.5), width / 400.0, height / 300.0});
@@ -192,6 +197,7 @@ Layout layout_of(int width, int height, std::string_view title, bool letters) {
 
 Image draw_marks(int width, int height, Layout const& layout, Overlay const& overlay, ThemeColours const& colours,
                  bool transparent) {
+  PIOLA_EXPECTS(width > 0 && height > 0);
   Image strip(width, height, colours.background);
   if (transparent) strip.alpha.assign(strip.rgb.size() / 3, 0);
   Layout at = layout;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/drawing/panels.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/drawing/canvas.hpp"
 #include <algorithm>
 #include <cmath>
@@ -56,6 +57,7 @@ void write_captions(Image& sheet, std::span<Panel const> panels, PanelCells cons
 }  // namespace
 
 Image draw_panels(std::span<Panel const> panels, Sheet const& sheet, PictureStyle const& style) {
+  PIOLA_EXPECTS(style.width > 0 && style.height > 0);
   ThemeColours const colours = colours_of(style.theme);
   Image out(style.width, style.height, colours.background);
   if (style.theme == Theme::transparent) out.alpha.assign(out.rgb.size() / 3, 0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/drawing/picture.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/version.hpp"
 #include "piola/drawing/colour_map.hpp"
 #include "piola/drawing/draw_bodies.hpp"
@@ -118,6 +119,7 @@ void add_notes_to(Image& image, PictureData const& data, ColourMap const& map) {
 }  // namespace
 
 Image draw_picture(PictureData const& data, PictureStyle const& style, Window const& window) {
+  PIOLA_EXPECTS(style.width > 0 && style.height > 0);
   Setting const s(data, style, window);
   ThemeColours const colours = colours_of(style.theme);
   std::optional<Colour> background = colours.background;
@@ -143,6 +145,7 @@ void draw_letters(Image& image, Layout const& layout, PictureData const& data, P
 
 Image draw_marks(Layout const& layout, int height, PictureData const& data, PictureStyle const& style,
                  Window const& window) {
+  PIOLA_EXPECTS(height > 0);
   Setting const s(data, style, window);
   return draw_marks(style.width, height, layout, overlay_of(data, s.view, s.project, s.map, s.spread),
                     colours_of(style.theme), style.theme == Theme::transparent);
@@ -168,6 +171,8 @@ void Spread::include(Spread const& other) {
 }
 
 std::vector<double> ball_radii(std::span<double const> volume, std::span<int const> body, int dimension) {
+  PIOLA_EXPECTS(volume.size() == body.size());
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
   std::map<int, double> largest;
   for (std::size_t i = 0; i < volume.size(); ++i) largest[body[i]] = std::max(largest[body[i]], volume[i]);
   // Half the spacing would leave gaps; flat discs must reach the middle of a lattice cell.
@@ -179,6 +184,8 @@ std::vector<double> ball_radii(std::span<double const> volume, std::span<int con
 }
 
 std::vector<double> picture_values(std::span<double const> values, int components, int component) {
+  PIOLA_EXPECTS(components >= 1 && values.size() % static_cast<std::size_t>(components) == 0);
+  PIOLA_EXPECTS(component == whole_field || (component >= 0 && component < components));
   auto const width = static_cast<std::size_t>(components);
   std::vector<double> out(values.size() / width);
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -222,6 +229,7 @@ std::string component_word(std::string const& field, int components, int compone
 }  // namespace
 
 std::string picture_label(std::string const& field, int components, int component) {
+  PIOLA_EXPECTS(component == whole_field || (component >= 0 && component < components));
   std::string const words = field_words(field);
   std::string_view const sign = sign_of(field, component);
   std::string const signed_by = sign.empty() ? "" : fmt::format(", {}", sign);
@@ -232,6 +240,7 @@ std::string picture_label(std::string const& field, int components, int componen
 }
 
 std::string picture_name(std::string const& field, int components, int component, std::size_t number) {
+  PIOLA_EXPECTS(component == whole_field || (component >= 0 && component < components));
   if (component == whole_field) return fmt::format("{}-{:06}.png", field, number);
   return fmt::format("{}-{}-{:06}.png", field, component_word(field, components, component), number);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/drawing/plot.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/drawing/ticks.hpp"
 #include "piola/output/atomic_file.hpp"
@@ -263,6 +264,7 @@ DrawingSurface surface_for(std::filesystem::path const& path, Plot const& plot, 
 }  // namespace
 
 PlotText plot_text(Plot const& plot) {
+  PIOLA_EXPECTS(plot.width > 0 && plot.height > 0);
   std::string svg;
   PlotText text;
   {
@@ -285,6 +287,7 @@ PlotText plot_text(Plot const& plot) {
 }
 
 void write_plot(std::filesystem::path const& path, Plot const& plot) {
+  PIOLA_EXPECTS(plot.width > 0 && plot.height > 0);
   std::string content;
   {
     DrawingSurface const surface = surface_for(path, plot, content);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/drawing/raster.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/drawing/vector_math.hpp"
 #include "piola/exec/host_loops.hpp"
 #include <algorithm>
@@ -208,6 +209,7 @@ std::size_t spread(std::size_t k, std::size_t count) {
 }  // namespace
 
 SurfaceBuffers::SurfaceBuffers(int columns, int rows) : width(columns), height(rows) {
+  PIOLA_EXPECTS(columns >= 0 && rows >= 0);
   std::size_t const samples = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
   depth.assign(samples, far_away);
   normal.resize(samples);
@@ -227,6 +229,8 @@ void set_shape(Ellipsoid& ellipsoid, std::array<Point3, 3> const& S) {
 }
 
 void rasterise(Surfaces const& surfaces, SurfaceBuffers& buffers) {
+  PIOLA_EXPECTS(buffers.depth.size() ==
+                static_cast<std::size_t>(buffers.width) * static_cast<std::size_t>(buffers.height));
   Cut const all{0, buffers.width, 0, buffers.height};
   int const columns = (all.x1 + tile_edge - 1) / tile_edge, rows = (all.y1 + tile_edge - 1) / tile_edge;
   TileLists balls(columns, rows), faces(columns, rows);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/drawing/reference_mesh.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/drawing/feature_lines.hpp"
 #include "piola/drawing/vector_math.hpp"
@@ -166,6 +167,8 @@ std::span<std::array<int, 2> const> edges_of(Cells const& cells) {
 }
 
 ReferenceMesh reference_mesh(ParticleSet const& set, Body const& body) {
+  PIOLA_EXPECTS(set.dimension >= 1 && set.dimension <= 3);
+  PIOLA_EXPECTS(body.first >= 0 && body.first <= body.last && body.last <= set.size());
   ReferenceMesh mesh;
   mesh.first = static_cast<std::size_t>(body.first);
   mesh.count = static_cast<std::size_t>(body.last - body.first);
@@ -179,6 +182,7 @@ ReferenceMesh reference_mesh(ParticleSet const& set, Body const& body) {
     reach_surface(mesh, body.outline);
   else
     mesh.outward.assign(mesh.count, Point3{});
+  PIOLA_ENSURES(mesh.outward.size() == mesh.count && mesh.begin.size() == mesh.count + 1);
   find_feature_lines(mesh);
   return mesh;
 }

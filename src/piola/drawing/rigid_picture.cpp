@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/drawing/rigid_picture.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/drawing/projection.hpp"
 #include "piola/exec/host_loops.hpp"
 #include <algorithm>
@@ -164,6 +165,8 @@ double Stage::size() const {
 }
 
 void RigidCanvas::draw(SurfaceBuffers& buffers, std::span<RigidShape const> shapes) const {
+  PIOLA_EXPECTS(fine >= 1);
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
   for (RigidShape const& shape : shapes) {
     Solid const solid = solid_of(shape, stage);
     auto const centre = project(project.eye.seen(solid.centre));

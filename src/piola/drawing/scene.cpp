@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/drawing/scene.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include <algorithm>
 #include <map>
@@ -240,6 +241,11 @@ double typical_radius(std::span<double const> radius) {
 }  // namespace
 
 Scene make_scene(PictureData const& data, Appearance const& appearance, Projection const& project, int fine) {
+  PIOLA_EXPECTS(fine >= 1);
+  PIOLA_EXPECTS(data.radius.size() == data.points.size());
+  PIOLA_EXPECTS((data.colours.empty() ? data.values.size() : data.colours.size()) == data.points.size());
+  PIOLA_EXPECTS(data.body.empty() || data.body.size() == data.points.size());
+  PIOLA_EXPECTS(data.loose.empty() || data.loose.size() == data.points.size());
   Scene scene;
   ToSamples const to_samples{project, static_cast<double>(fine)};
   scene.bodies.nearest_value = scene.ghosts.nearest_value = !data.colours.empty();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/drawing/shade.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include <algorithm>
 #include <cmath>
@@ -242,6 +243,9 @@ Reflected reflected(std::array<float, 3> const& n) {
 }
 
 Image shade(Shading const& shading) {
+  PIOLA_EXPECTS(shading.bodies.surfaces != nullptr);
+  PIOLA_EXPECTS(shading.fine >= 1 && shading.directions >= 1);
+  PIOLA_EXPECTS(shading.lines.empty() || shading.lines.size() == shading.bodies.surfaces->depth.size());
   std::vector<Prepared> layers;
   std::vector<PixelSurface> surfaces;
   for (ShadedLayer const* layer : {&shading.bodies, &shading.tools, &shading.ghosts}) {

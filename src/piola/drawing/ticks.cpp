@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/drawing/ticks.hpp"
+#include "piola/base/contracts.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,6 +24,7 @@ std::string tick_text(double value, int decimals, double largest) {
 }  // namespace
 
 std::vector<Tick> linear_ticks(double low, double high, int about) {
+  PIOLA_EXPECTS(low <= high && about >= 1);
   double const rough = (high - low) / about;
   double const power = std::pow(10, std::floor(std::log10(rough)));
   // The step with which the number of marks comes nearest to what is wanted.
@@ -42,6 +44,7 @@ std::vector<Tick> linear_ticks(double low, double high, int about) {
 }
 
 std::vector<Tick> decade_ticks(double low, double high) {
+  PIOLA_EXPECTS(low <= high);
   int const first = static_cast<int>(std::ceil(std::log10(low) - 1e-9));
   int const last = static_cast<int>(std::floor(std::log10(high) + 1e-9));
   int const stride = std::max(1, (last - first + 8) / 9);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/estimates/case_plan.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/version.hpp"
 #include "piola/exec/threads.hpp"
 #include "piola/guards/warnings.hpp"
@@ -62,6 +63,8 @@ PlanJson bodies_json(CasePlan const& plan) {
 }  // namespace
 
 CasePlan plan_of_case(CaseSpec spec, ParticleSet particles, double reading_seconds) {
+  PIOLA_EXPECTS(reading_seconds >= 0);
+  PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   CasePlan plan;
   plan.facts = body_properties(spec, particles);
   // Smaller cases are built, which also detects input errors of the formulation; of larger ones a part.

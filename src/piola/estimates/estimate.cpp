@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/estimates/estimate.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/estimates/reduced_case.hpp"
 #include "piola/estimates/step_range.hpp"
 #include "piola/formulations/make_formulation.hpp"
@@ -189,6 +190,7 @@ std::int64_t steps_of(StepEstimate const& rule, RunSpec const& run, double time,
 }
 
 Estimate estimate(Simulation& s, CostMeter const& meter, Trial& trial) {
+  PIOLA_EXPECTS(s.formulation != nullptr && s.particles.size() > 0);
   auto const n = static_cast<double>(s.particles.size());
   Estimate e;
   e.threads = s.threads;
@@ -209,6 +211,8 @@ Estimate estimate(Simulation& s, CostMeter const& meter, Trial& trial) {
 }
 
 Estimate estimate_from_parts(CaseSpec const& spec, ParticleSet const& particles, int threads) {
+  PIOLA_EXPECTS(threads >= 1);
+  PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   constexpr std::array part_size{4000, 100, 24};
   Estimate e;
   e.threads = threads;
@@ -234,6 +238,8 @@ Estimate estimate_from_parts(CaseSpec const& spec, ParticleSet const& particles,
 }
 
 double memory_of_rank(Estimate const& cost, ParticleSet const& particles, int ranks) {
+  PIOLA_EXPECTS(ranks >= 1);
+  PIOLA_EXPECTS(ranks == 1 || cost.distributed.size() == particles.bodies.size());
   if (ranks == 1) return cost.memory;
   double memory = cost.memory + rank_bytes;
   for (std::size_t b = 0; b < particles.bodies.size(); ++b) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/estimates/reduced_case.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/setup/shapes.hpp"
 #include <algorithm>
 #include <cmath>
@@ -29,6 +30,8 @@ void move_away(ParticleSet& set) {
 }  // namespace
 
 ShapeSpec part_of(ShapeSpec const& shape, int particles) {
+  PIOLA_EXPECTS(shape.dimension >= 1 && shape.dimension <= 3);
+  PIOLA_EXPECTS(particles >= 3);
   ShapeSpec part = shape;
   if (shape.kind == ShapeSpec::Kind::solid || shape.kind == ShapeSpec::Kind::points) {
     // A shaken box stands for it.
@@ -60,6 +63,7 @@ ShapeSpec part_of(ShapeSpec const& shape, int particles) {
 }
 
 Assembly part_of_case(CaseSpec const& spec, std::size_t body, int particles) {
+  PIOLA_EXPECTS(body < spec.bodies.size());
   constexpr int few = 4;
   Assembly a;
   a.cfl = spec.run.cfl;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/estimates/trial.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/simulation/time_loop.hpp"
 #include <algorithm>
 #include <array>
@@ -42,6 +43,7 @@ class TrialObserver final : public Observer {
 }  // namespace
 
 Trial take_trial_steps(Formulation& formulation, RunSpec const& run, TrialLimits const& limits) {
+  PIOLA_EXPECTS(limits.fewest >= 0 && limits.most >= 0 && limits.seconds >= 0);
   WallLimit wall(limits.longest, WallLimit::Clock::now());
   TrialObserver steps(limits);
   std::array<Observer*, 1> const observers{&steps};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/derived_fields.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/formulations/common/output_fields.hpp"
 #include <algorithm>
 
@@ -17,6 +18,7 @@ int components_of(DerivedField const& derived) {
 }
 
 void derive(DerivedField const& derived, std::span<double const> from, std::span<double> out) {
+  PIOLA_EXPECTS(out.size() % static_cast<std::size_t>(components_of(derived)) == 0);
   auto const width = static_cast<std::size_t>(components_of(derived)), count = out.size() / width;
   for (std::size_t i = 0; i < count; ++i) derived.put(&from[i * (from.size() / count)], &out[i * width]);
 }

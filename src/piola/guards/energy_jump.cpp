@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/guards/energy_jump.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include <algorithm>
 #include <array>
@@ -44,6 +45,7 @@ EnergyJumpGuard::EnergyJumpGuard(CaseSpec const& spec, ParticleSet const& partic
       stop_(spec.run.guards.energy_rise_stop),
       loaded_(may_do_work(spec)),
       pressed_(starts_under_pressure(spec)) {
+  PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   if (double const time = crossing_time(spec, particles); std::isfinite(time)) lasting_ = lasting_crossings * time;
 }
 

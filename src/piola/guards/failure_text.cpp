@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/guards/failure_text.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/output/checkpoint.hpp"
 #include <algorithm>
@@ -68,6 +69,7 @@ std::string point_text(std::array<double, 3> const& p) {
 
 std::string failure_text(Failure const& failure, std::string const& causes, TimeState const& moment, double cfl,
                          std::filesystem::path const& results) {
+  PIOLA_EXPECTS(moment.step >= 0);
   std::string const values = values_text(failure);
   std::string const likely = causes.empty() ? usual_causes(failure, moment) : causes;
   std::string const where = results.empty() ? "" : places_text(results);

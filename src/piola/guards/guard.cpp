@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/guards/guard.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/reproducible_sum.hpp"
 #include "piola/guards/failure_text.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
@@ -39,6 +40,7 @@ double EnergyScale::without_motion() const { return std::max({std::abs(initial_)
 double EnergyScale::value() const { return std::max(without_motion(), kinetic_); }
 
 double roundoff_energy(CaseSpec const& spec, ParticleSet const& particles) {
+  PIOLA_EXPECTS(spec.bodies.size() <= particles.bodies.size());
   double sum = 0;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     exec::ReproducibleSum volume;
@@ -67,6 +69,7 @@ void EnergyScale::load(NamedState& reader, std::string_view name) {
 }
 
 std::string Suspect::text(ParticleSet const& particles) const {
+  PIOLA_EXPECTS(known() && id < static_cast<double>(particles.X.size()));
   auto const k = static_cast<std::size_t>(id);
   return fmt::format("particle {} of body '{}' (X = {}, x = {})", k,
                      particles.bodies[static_cast<std::size_t>(particles.body[k])].name, point_text(particles.X[k]),
@@ -74,6 +77,7 @@ std::string Suspect::text(ParticleSet const& particles) const {
 }
 
 Suspect suspect(FieldCache& fields, std::size_t id, double time) {
+  PIOLA_EXPECTS(id < static_cast<std::size_t>(fields.particles().size()));
   Suspect s{static_cast<double>(id), time, {}};
   if (!fields.knows("Position")) return s;
   auto const x = fields.values("Position");
@@ -92,6 +96,7 @@ std::vector<double> kinetic_per_mass(FieldCache& fields, ParticleSet const& part
 
 std::optional<Suspect> most_moved(FieldCache& fields, ParticleSet const& particles, std::vector<double> const& before,
                                   double time) {
+  PIOLA_EXPECTS(before.empty() || before.size() == particles.X.size());
   auto const now = kinetic_per_mass(fields, particles);
   if (now.empty() || !fields.knows("Velocity")) return std::nullopt;
   std::size_t most = 0;
@@ -105,6 +110,7 @@ std::optional<Suspect> most_moved(FieldCache& fields, ParticleSet const& particl
 }
 
 void take_particle(Failure& failure, Suspect const& suspect, ParticleSet const& particles) {
+  PIOLA_EXPECTS(suspect.known() && suspect.id < static_cast<double>(particles.X.size()));
   auto const id = static_cast<std::size_t>(suspect.id);
   failure.particle = static_cast<std::int64_t>(id);
   failure.body = particles.bodies[static_cast<std::size_t>(particles.body[id])].name;
@@ -133,6 +139,8 @@ bool has_driven_support(CaseSpec const& spec) {
 }
 
 double crossing_time(CaseSpec const& spec, ParticleSet const& particles, std::vector<double> const& speed) {
+  PIOLA_EXPECTS(spec.bodies.size() <= particles.bodies.size());
+  PIOLA_EXPECTS(speed.empty() || speed.size() == spec.bodies.size());
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     auto const& spacing = particles.bodies[b].spacing;
@@ -150,6 +158,7 @@ double crossing_time(CaseSpec const& spec, ParticleSet const& particles, std::ve
 }
 
 Guards make_guards(CaseSpec const& spec, ParticleSet const& particles) {
+  PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   GuardLimits const& limits = spec.run.guards;
   Guards guards;
   guards.push_back(make_energy_guard(limits, particles));

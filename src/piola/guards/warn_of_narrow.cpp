@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/guards/warn_of_narrow.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/input/contact_capabilities.hpp"
 #include "piola/model/region_checks.hpp"
@@ -62,6 +63,7 @@ void warn_of_sheet(RigidSpec const& rigid, BodySpec const& body, double width, d
 }  // namespace
 
 void warn_of_narrow_shapes(CaseSpec const& spec, ParticleSet const& particles, Problems& found) {
+  PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   int const D = particles.dimension;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
     for (std::size_t r = 0; r < spec.rigids.size(); ++r) {

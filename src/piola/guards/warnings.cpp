@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/guards/warnings.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/formulations/setting_warnings.hpp"
 #include "piola/guards/warn_of_narrow.hpp"
@@ -177,6 +178,7 @@ void warn_of_inaccurate_particles(CaseSpec const& spec, Problems& found) {
 }  // namespace
 
 void refuse_unpaid_contact(CaseSpec const& spec, ParticleSet const& particles, Diagnostics const& start) {
+  PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   auto const energy = contact_energy(start);
   if (!energy || !has_kernel_contact(spec) || (spec.contact && is_given(spec.contact->places, "law"))) return;
   double const total = start.total_energy();
@@ -194,6 +196,7 @@ void refuse_unpaid_contact(CaseSpec const& spec, ParticleSet const& particles, D
 }
 
 std::vector<std::string> warnings_of(CaseSpec const& spec, Assembly const& assembly, StartEstimate const& prospect) {
+  PIOLA_EXPECTS(spec.bodies.size() == assembly.particles.bodies.size());
   Problems found;
   for (OldSpelling const& spelling : spec.old_spellings) found.add(spelling.place, spelling.text);
   find_implausible_values(spec, assembly.particles, body_properties(spec, assembly.particles), prospect.step, found);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/contact_capabilities.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include <algorithm>
 
@@ -17,6 +18,7 @@ std::vector<FormulationInfo> formulations_of(CaseSpec const& spec) {
 }
 
 bool has_kernel_contact(CaseSpec const& spec, std::size_t body) {
+  PIOLA_EXPECTS(body < spec.bodies.size());
   auto const info = find_formulation(spec.bodies[body].formulation.name);
   bool const surfaces = spec.contact && spec.contact->law == ContactRule::Law::surface;
   return info && info->contact && !surfaces;
@@ -28,6 +30,7 @@ bool is_tied(CaseSpec const& spec, std::size_t body) {
 }
 
 bool has_own_contact(CaseSpec const& spec, std::size_t a, std::size_t b) {
+  PIOLA_EXPECTS(a < spec.bodies.size() && b < spec.bodies.size());
   return has_kernel_contact(spec, a) && has_kernel_contact(spec, b) && !contact::is_tied(spec.ties, a, b) &&
          !starts_with_surface_contact(spec, a, b);
 }
@@ -38,6 +41,7 @@ bool is_off(CaseSpec const& spec, std::string const& a, std::string const& b) {
 }
 
 bool has_surface(CaseSpec const& spec, std::size_t body) {
+  PIOLA_EXPECTS(body < spec.bodies.size());
   bool const off = spec.contact && spec.contact->law == ContactRule::Law::none;
   return !off && can_have_surface(spec, body);
 }
@@ -71,6 +75,7 @@ bool can_be_pushed(CaseSpec const& spec, std::size_t body) {
 }  // namespace
 
 bool can_have_surface(CaseSpec const& spec, std::size_t body) {
+  PIOLA_EXPECTS(body < spec.bodies.size());
   BodySpec const& b = spec.bodies[body];
   auto const info = find_formulation(b.formulation.name);
   bool const open_ended = b.shape.kind == ShapeSpec::Kind::points;  // its surface is unknown
@@ -84,6 +89,7 @@ bool can_have_surface(CaseSpec const& spec, std::size_t body) {
 }
 
 bool pushed_by_colour(CaseSpec const& spec, std::size_t a, std::size_t b) {
+  PIOLA_EXPECTS(a < spec.bodies.size() && b < spec.bodies.size());
   bool const off = spec.contact && spec.contact->law == ContactRule::Law::none;
   if (off || a == b || (can_have_surface(spec, a) && can_have_surface(spec, b)) || has_own_contact(spec, a, b) ||
       starts_with_surface_contact(spec, a, b))
@@ -94,6 +100,7 @@ bool pushed_by_colour(CaseSpec const& spec, std::size_t a, std::size_t b) {
 }
 
 bool can_lose_surface(CaseSpec const& spec, std::size_t body) {
+  PIOLA_EXPECTS(body < spec.bodies.size());
   FormulationSpec const& formulation = spec.bodies[body].formulation;
   bool const has_none = is_word(formulation, "description", "eulerian") ||
                         is_word(formulation, "description", "patch") || is_word(formulation, "failed", "delete");
@@ -102,6 +109,7 @@ bool can_lose_surface(CaseSpec const& spec, std::size_t body) {
 }
 
 bool starts_with_surface_contact(CaseSpec const& spec, std::size_t a, std::size_t b) {
+  PIOLA_EXPECTS(a < spec.bodies.size() && b < spec.bodies.size());
   if (a == b || !can_lose_surface(spec, a) || !can_lose_surface(spec, b)) return false;
   if ((spec.contact && spec.contact->law == ContactRule::Law::none) || contact::is_tied(spec.ties, a, b)) return false;
   ContactPairSpec const* const pair = find_pair(spec.contact_pairs, spec.bodies[a].name, spec.bodies[b].name);
@@ -109,6 +117,7 @@ bool starts_with_surface_contact(CaseSpec const& spec, std::size_t a, std::size_
 }
 
 std::string why_without_surface(CaseSpec const& spec, std::size_t body) {
+  PIOLA_EXPECTS(body < spec.bodies.size());
   BodySpec const& b = spec.bodies[body];
   auto const info = find_formulation(b.formulation.name);
   if (b.shape.kind == ShapeSpec::Kind::points) return "particles from a file have no known surface";
@@ -122,6 +131,7 @@ std::string why_without_surface(CaseSpec const& spec, std::size_t body) {
 }
 
 bool pushed_by_surface(CaseSpec const& spec, std::size_t a, std::size_t b) {
+  PIOLA_EXPECTS(a < spec.bodies.size() && b < spec.bodies.size());
   if (starts_with_surface_contact(spec, a, b)) return true;
   ContactPairSpec const* const pair = find_pair(spec.contact_pairs, spec.bodies[a].name, spec.bodies[b].name);
   if (!has_surface(spec, a) || !has_surface(spec, b)) return false;
@@ -130,16 +140,19 @@ bool pushed_by_surface(CaseSpec const& spec, std::size_t a, std::size_t b) {
 }
 
 bool pushed_by_rigid(CaseSpec const& spec, std::size_t body, std::size_t rigid) {
+  PIOLA_EXPECTS(body < spec.bodies.size() && rigid < spec.rigids.size());
   ContactPairSpec const* const pair = find_pair(spec.contact_pairs, spec.bodies[body].name, spec.rigids[rigid].name);
   return has_surface(spec, body) && (spec.rigids[rigid].turns() || !has_kernel_contact(spec, body)) &&
          (pair == nullptr || !pair->off);
 }
 
 bool has_contact_between(CaseSpec const& spec, std::size_t a, std::size_t b) {
+  PIOLA_EXPECTS(a < spec.bodies.size() && b < spec.bodies.size());
   return has_own_contact(spec, a, b) || pushed_by_surface(spec, a, b) || pushed_by_colour(spec, a, b);
 }
 
 bool has_rigid_contact(CaseSpec const& spec, std::size_t body) {
+  PIOLA_EXPECTS(body < spec.bodies.size());
   return has_kernel_contact(spec, body) || has_surface(spec, body);
 }
 

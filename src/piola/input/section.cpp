@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/section.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/input/synonyms.hpp"
 #include <algorithm>
@@ -39,7 +40,9 @@ std::string advice_for_key(std::string_view key, std::span<std::string const> kn
 }  // namespace
 
 Section::Section(Node const& node, std::string section, Problems& problems)
-    : node_(node), section_(std::move(section)), problems_(problems) {}
+    : node_(node), section_(std::move(section)), problems_(problems) {
+  PIOLA_EXPECTS(node.is_table());
+}
 
 Place Section::place_of(std::string_view key) const {
   Node const* const value = node_.find(key);
@@ -59,6 +62,7 @@ std::string Section::name_of(std::string_view key) const {
 KeyInfo const& Section::info_of(std::string_view key) const { return key_info(section_, key); }
 
 void Section::refuse_count(std::string_view owner, std::ptrdiff_t given, std::string_view kinds) const {
+  PIOLA_EXPECTS(given != 1);
   problems().add(place(), given == 0 ? fmt::format("{} needs one of {} (has none) - add one", owner, kinds)
                                      : fmt::format("{} has {} of {} (allowed: one) - keep one", owner, given, kinds));
 }

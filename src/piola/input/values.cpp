@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/base/units.hpp"
 #include "piola/input/section.hpp"
@@ -150,6 +151,7 @@ std::optional<Expression> read_formula(Value const& value, std::string_view unit
 
 std::optional<std::vector<Value>> read_list(Value const& value, std::size_t least, std::size_t most,
                                             Problems& problems) {
+  PIOLA_EXPECTS(least <= most);
   std::size_t const size = value.node.items.size();
   if (!value.node.is_array() || size < least || size > most) {
     std::string const length = least == most ? std::to_string(least)

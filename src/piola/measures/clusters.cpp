@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/measures/clusters.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <cmath>
@@ -56,6 +57,7 @@ Cloud cloud_of(FieldCache& cache, std::span<std::int64_t const> ids) {
 }
 
 Clusters find_clusters(std::vector<Point> const& points, double link) {
+  PIOLA_EXPECTS(link > 0);
   std::vector<std::size_t> parent(points.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
   CellGrid const grid(points, link);
@@ -79,6 +81,7 @@ Clusters find_clusters(std::vector<Point> const& points, double link) {
 }
 
 std::vector<double> nearest_distances(std::vector<Point> const& points, std::span<std::size_t const> of, double near) {
+  PIOLA_EXPECTS(near > 0);
   std::vector<double> out(of.size(), std::numeric_limits<double>::infinity());
   if (points.size() < 2) return out;
   std::vector<std::size_t> open(of.size());  // those that have not found theirs for sure
@@ -99,11 +102,13 @@ Measured::Measured(ProbeSpec const& probe, ParticleSet const& particles, Body co
     : spec(probe),
       spacing(*std::min_element(body.spacing.begin(), body.spacing.begin() + particles.dimension)),
       ids(std::move(chosen)) {
+  PIOLA_EXPECTS(particles.dimension >= 1 && particles.dimension <= 3);
   if (!spec.anchored_where) return;
   for (Point const& X : particles.X) anchor.push_back((*spec.anchored_where)(X) != 0);
 }
 
 std::vector<char> anchored(Measured const& measured, Cloud const& cloud, Clusters const& clusters) {
+  PIOLA_EXPECTS(cloud.id.size() == clusters.of.size());
   std::vector<char> out(clusters.size.size(), 0);
   if (measured.anchor.empty()) return out;
   for (std::size_t k = 0; k < cloud.id.size(); ++k) {

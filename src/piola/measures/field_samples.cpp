@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/measures/field_samples.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/reproducible_sum.hpp"
 #include "piola/math/solve.hpp"
 #include <algorithm>
@@ -123,6 +124,9 @@ bool FieldSampler::take(Pending& pending, FieldCache& cache, TimeState const& mo
 }
 
 std::optional<double> relative_difference(FieldSample const& f, FieldSample const& reference, Expression const* where) {
+  PIOLA_EXPECTS(f.values.size() == f.components * f.X.size());
+  PIOLA_EXPECTS(reference.values.size() == reference.components * reference.X.size());
+  PIOLA_EXPECTS(f.volume.size() == f.X.size() && f.body.size() == f.X.size());
   if (f.components != reference.components || f.dimension != reference.dimension) return std::nullopt;
   SpatialHalo const near(reference);
   std::size_t const width = f.components;

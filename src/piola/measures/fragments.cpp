@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/measures/fragments.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/reproducible_sum.hpp"
 #include <algorithm>
 #include <cmath>
@@ -100,6 +101,7 @@ Point extents(std::vector<Point> const& points) {
 }  // namespace
 
 std::vector<double> spacing_values(Measured const& measured, FieldCache& cache) {
+  PIOLA_EXPECTS(measured.spacing > 0);
   std::vector<std::int64_t> everyone(static_cast<std::size_t>(cache.particles().size()));
   std::iota(everyone.begin(), everyone.end(), std::int64_t{0});
   Cloud const cloud = cloud_of(cache, everyone);
@@ -119,6 +121,7 @@ std::vector<double> spacing_values(Measured const& measured, FieldCache& cache) 
 }
 
 std::vector<double> fragment_values(Measured const& measured, FieldCache& cache) {
+  PIOLA_EXPECTS(measured.spacing > 0 && measured.spec.link > 0);
   Cloud const cloud = cloud_of(cache, measured.ids);
   Clusters const clusters = find_clusters(cloud.x, measured.spec.link * measured.spacing);
   std::vector<double> out(12, 0);

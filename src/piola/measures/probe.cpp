@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/measures/probe.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/exec/reproducible_sum.hpp"
@@ -93,6 +94,7 @@ Probe::Probe(ProbeSpec const& spec, ParticleSet const& particles)
       field_(spec.field),
       reference_(spec.reference),
       direction_(spec.direction) {
+  PIOLA_EXPECTS(spec.axis >= 0 && spec.axis < 3);
   Body const& body = find_body(particles, spec);
   ids_ = selected(particles, body, spec);
   for (std::int64_t id : ids_) weight_.push_back(particles.volume[static_cast<std::size_t>(id)]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/measures/probe_set.hpp"
+#include "piola/base/contracts.hpp"
 #include <algorithm>
 
 namespace piola {
@@ -10,6 +11,7 @@ ProbeSet::ProbeSet(CaseSpec const& spec, ParticleSet const& particles) : particl
 
 std::vector<std::vector<double>> ProbeSet::evaluate(Formulation const& formulation, double time,
                                                     OnAllRanks on_all_ranks) {
+  PIOLA_EXPECTS(on_all_ranks != nullptr);
   std::vector<std::vector<double>> values(probes_.size());
   if (std::any_of(probes_.begin(), probes_.end(), [](Probe const& probe) { return probe.is_reducible(); }))
     on_all_ranks(time, [&] { values = evaluate_additive(formulation, time); });

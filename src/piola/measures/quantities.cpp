@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/measures/quantities.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/units.hpp"
 #include <algorithm>
 #include <cmath>
@@ -181,6 +182,7 @@ std::optional<double> evaluate(QuantitySpec const& spec, Series const& s) {
 }  // namespace
 
 std::optional<Peak> first_peak(std::vector<double> const& time, std::vector<double> const& y) {
+  PIOLA_EXPECTS(time.size() == y.size());
   double largest = 0;
   for (double v : y) largest = std::max(largest, std::abs(v));
   for (std::size_t k = 1; k + 1 < y.size(); ++k) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/measures/rim_and_hole.hpp"
+#include "piola/base/contracts.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -113,6 +114,7 @@ double cavity(Measured const& measured, Profile const& profile) {
 }  // namespace
 
 std::vector<double> rim_values(Measured const& measured, FieldCache& cache) {
+  PIOLA_EXPECTS(measured.spec.sectors >= 1);
   double radius = 0, height = 0, count = 0;
   for (Tip const& tip : tips(measured, cache)) {
     if (!tip.found) continue;
@@ -125,6 +127,7 @@ std::vector<double> rim_values(Measured const& measured, FieldCache& cache) {
 }
 
 std::vector<double> hole_values(Measured const& measured, FieldCache& cache) {
+  PIOLA_EXPECTS(measured.spec.bin > 0 && measured.spacing > 0);
   Cloud const cloud = cloud_of(cache, measured.ids);
   Profile const profile = profile_of(measured.spec, cloud);
   return {slab(measured, cloud, profile), cavity(measured, profile)};

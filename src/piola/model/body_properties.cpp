@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/model/body_properties.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
 #include "piola/particles/part_properties.hpp"
 #include <algorithm>
@@ -47,10 +48,12 @@ double yield_at_start(MaterialParameters const& material) {
 }
 
 double smallest_spacing(BodyProperties const& body, int dimension) {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
   return *std::min_element(body.spacing.begin(), body.spacing.begin() + dimension);
 }
 
 std::vector<BodyProperties> body_properties(CaseSpec const& spec, ParticleSet const& particles) {
+  PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   std::vector<BodyProperties> all;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     Body const& body = particles.bodies[b];
@@ -77,6 +80,7 @@ std::vector<BodyProperties> body_properties(CaseSpec const& spec, ParticleSet co
 }
 
 double step_estimate(CaseSpec const& spec, std::vector<BodyProperties> const& facts, double default_cfl) {
+  PIOLA_EXPECTS(facts.size() <= spec.bodies.size());
   double const cfl = std::isnan(spec.run.cfl) ? default_cfl : spec.run.cfl;
   double step = spec.run.max_step;
   for (std::size_t b = 0; b < facts.size(); ++b) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/model/case_particles.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/model/region_checks.hpp"
 #include <algorithm>
@@ -89,6 +90,7 @@ ParticleSet make_particles(CaseSpec const& spec) {
 }
 
 std::int64_t nearest_particle(ParticleSet const& particles, Body const& body, std::array<double, 3> const& at) {
+  PIOLA_EXPECTS(body.first < body.last);
   std::int64_t best = body.first;
   double best_distance = std::numeric_limits<double>::infinity();
   for (std::int64_t id = body.first; id < body.last; ++id) {
@@ -117,6 +119,7 @@ std::vector<std::int64_t> particles_ahead(ParticleSet const& particles, Body con
 }
 
 std::vector<std::int64_t> select_particles(ParticleSet const& particles, Body const& body, Expression const* where) {
+  PIOLA_EXPECTS(body.first >= 0 && body.last <= particles.size());
   std::vector<std::int64_t> ids;
   for (std::int64_t id = body.first; id < body.last; ++id) {
     if (where == nullptr || (*where)(particles.X[static_cast<std::size_t>(id)]) != 0) ids.push_back(id);
@@ -133,6 +136,7 @@ std::vector<std::int64_t> supported_particles(ParticleSet const& particles, Body
 }
 
 std::vector<FaceWeight> supported_weights(ParticleSet const& particles, Body const& body, SupportSpec const& support) {
+  PIOLA_EXPECTS(support.patch.has_value());
   auto shares = face_weights(support.shape, particles, body, *support.patch);
   std::erase_if(shares, [&](FaceWeight const& share) {
     return support.where && (*support.where)(particles.X[static_cast<std::size_t>(share.particle)]) == 0;
@@ -148,6 +152,7 @@ std::vector<std::int64_t> loaded_particles(ParticleSet const& particles, Body co
 }
 
 std::vector<FaceWeight> loaded_weights(ParticleSet const& particles, Body const& body, LoadSpec const& load) {
+  PIOLA_EXPECTS(load.on_face());
   auto shares = face_weights(load.shape, particles, body, load.face);
   std::erase_if(shares, [&](FaceWeight const& share) {
     return load.where && (*load.where)(particles.X[static_cast<std::size_t>(share.particle)]) == 0;
@@ -156,6 +161,7 @@ std::vector<FaceWeight> loaded_weights(ParticleSet const& particles, Body const&
 }
 
 void check_regions(CaseSpec const& spec, ParticleSet const& particles, Problems& problems) {
+  PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
     check_body(spec.bodies[b], particles, particles.bodies[b], problems);
   check_parts(spec, particles, problems);

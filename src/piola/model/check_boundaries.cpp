@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/model/case_particles.hpp"
 #include "piola/model/region_checks.hpp"
@@ -225,6 +226,7 @@ bool check_mirror(CaseSpec const& spec, std::size_t number, Body const& body, Pr
 }  // namespace
 
 void check_boundaries(CaseSpec const& spec, ParticleSet const& particles, Problems& problems) {
+  PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   std::vector<Hold> holds;
   for (std::size_t s = 0; s < spec.supports.size(); ++s) {
     Body const* const body = body_named(particles, spec.supports[s].body);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/formulations/registry.hpp"
 #include "piola/input/contact_capabilities.hpp"
@@ -24,6 +25,7 @@ bool holds_surface(CaseSpec const& spec, SupportSpec const& support) {
 }
 
 void open_cracks(CaseSpec const& spec, ParticleSet& particles, Problems& problems) {
+  PIOLA_EXPECTS(!particles.bodies.empty());
   std::size_t const body = particles.bodies.size() - 1;
   for (CrackSpec const& crack : spec.cracks) {
     if (crack.body != particles.bodies[body].name) continue;

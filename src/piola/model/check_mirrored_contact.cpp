@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/input/contact_capabilities.hpp"
 #include "piola/model/region_checks.hpp"
@@ -46,6 +47,7 @@ bool has_plane(CaseSpec const& spec, ParticleSet const& particles, std::size_t b
 }  // namespace
 
 void check_mirrored_contact(CaseSpec const& spec, ParticleSet const& particles, Problems& problems) {
+  PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   constexpr double free_of_the_plane = 0.5 * (1 + 1e-6);  // spacings: a body that touches the plane touches its image
   for (MirrorSpec const& mirror : spec.mirrors) {
     auto const named = std::find_if(spec.bodies.begin(), spec.bodies.end(),

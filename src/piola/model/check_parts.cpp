@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/model/region_checks.hpp"
 #include "piola/particles/part_properties.hpp"
@@ -19,6 +20,7 @@ void check_part(BodySpec const& body, PartSpec const& part, FormulationInfo cons
 }  // namespace
 
 void mark_parts(CaseSpec const& spec, ParticleSet& particles) {
+  PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     auto const& parts = spec.bodies[b].parts;
     if (parts.empty()) continue;
@@ -34,6 +36,7 @@ void mark_parts(CaseSpec const& spec, ParticleSet& particles) {
 }
 
 void check_parts(CaseSpec const& spec, ParticleSet const& particles, Problems& problems) {
+  PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     BodySpec const& from = spec.bodies[b];
     Body const& body = particles.bodies[b];

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/math/array_conversion.hpp"
 #include "piola/mechanics/contact/rigid_surface.hpp"
@@ -57,10 +58,12 @@ Vec3 start_of(BodySpec const& body, Vec3 const& X) {
 }
 
 double distance_to(RigidShape const& shape, Vec3 const& x, int dimension) {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
   return contact::distance_from(contact::surface_of(shape, dimension), vector_of(x)).value;
 }
 
 void check_rigid(CaseSpec const& spec, ParticleSet const& particles, Problems& problems) {
+  PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   for (RigidSpec const& rigid : spec.rigids) {
     check_formulas(rigid, "velocity", rigid.velocity, problems);
     check_formulas(rigid, "angular_velocity", rigid.angular_velocity, problems);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/input/contact_capabilities.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
@@ -110,6 +111,7 @@ double spacing_of(ParticleSet const& particles, std::size_t body) {
 }  // namespace
 
 std::vector<contact::Ties::TieReport> found_by_ties(CaseSpec const& spec, ParticleSet const& particles) {
+  PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   Problems none;
   if (spec.ties.empty() || !check_bodies(spec, none)) return {};
   std::vector<contact::Surface> surfaces(spec.bodies.size());

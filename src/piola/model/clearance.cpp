@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/model/clearance.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/input/contact_capabilities.hpp"
 #include "piola/math/array_conversion.hpp"
@@ -149,6 +150,8 @@ void report_contact(CaseSpec const& spec, ParticleSet const& particles, Clearanc
 }  // namespace
 
 std::vector<Clearance> close_bodies(CaseSpec const& spec, ParticleSet const& particles, double reach) {
+  PIOLA_EXPECTS(reach > 0);
+  PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   std::vector<Clearance> found;
   std::vector<BodyPlaces> clouds;
   for (std::size_t b = 0; b < spec.bodies.size() && spec.bodies.size() > 1; ++b)
@@ -164,6 +167,7 @@ std::vector<Clearance> close_bodies(CaseSpec const& spec, ParticleSet const& par
 }
 
 std::vector<Clearance> close_shapes(CaseSpec const& spec, ParticleSet const& particles) {
+  PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   constexpr double rounding = 1e-9;
   std::vector<Clearance> found;
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
@@ -184,6 +188,7 @@ std::vector<Clearance> close_shapes(CaseSpec const& spec, ParticleSet const& par
 }
 
 Overclosure overclosure(CaseSpec const& spec, ParticleSet const& particles, std::size_t guest, std::size_t host) {
+  PIOLA_EXPECTS(guest < spec.bodies.size() && host < spec.bodies.size() && guest != host);
   constexpr double rounding = 1e-9;  // of the spacing: particles on the surface are not inside
   Body const &from = particles.bodies[guest], &in = particles.bodies[host];
   double const allowed = rounding * largest_spacing(in, particles.dimension);

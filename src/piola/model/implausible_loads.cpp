@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/input/plausibility.hpp"
 #include "piola/model/body_properties.hpp"
@@ -108,6 +109,7 @@ bool is_formula(Expression const& expression) {
 
 void find_slips_of_loads(CaseSpec const& spec, ParticleSet const& particles, std::vector<BodyProperties> const& facts,
                          Problems& slips) {
+  PIOLA_EXPECTS(facts.size() == spec.bodies.size());
   double fastest = 0;
   for (BodyProperties const& body : facts) fastest = std::max(fastest, body.p_wave);
   for (LoadSpec const& load : spec.loads)

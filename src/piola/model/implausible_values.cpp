@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/input/plausibility.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
@@ -189,6 +190,7 @@ void check_friction(CaseSpec const& spec, Problems& slips) {
 
 void find_implausible_values(CaseSpec const& spec, ParticleSet const& particles,
                              std::vector<BodyProperties> const& facts, double step, Problems& slips) {
+  PIOLA_EXPECTS(facts.size() == spec.bodies.size());
   for (std::size_t b = 0; b < facts.size(); ++b) {
     check_materials(spec.bodies[b], facts[b], slips);
     check_fineness(spec.bodies[b], facts[b], slips);

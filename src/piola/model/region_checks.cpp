@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/model/region_checks.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/input/formula_loop.hpp"
 #include "piola/model/case_particles.hpp"
@@ -20,6 +21,7 @@ double determinant(std::array<Expression, 9> const& F, Vec3 const& X) {
 }  // namespace
 
 std::string box_of(ParticleSet const& particles, Body const& body) {
+  PIOLA_EXPECTS(body.first < body.last);
   Vec3 low = particles.X[static_cast<std::size_t>(body.first)], high = low;
   for (std::int64_t id = body.first; id < body.last; ++id) {
     for (std::size_t d = 0; d < 3; ++d) {

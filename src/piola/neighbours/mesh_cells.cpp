@@ -3,6 +3,7 @@
 #include "piola/base/contracts.hpp"
 #include "piola/neighbours/cell_facets.hpp"
 #include "piola/neighbours/simplex.hpp"
+#include "piola/particles/body_range.hpp"
 #include <algorithm>
 
 namespace piola {

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/base/contracts.hpp"
 #include "piola/neighbours/cell_grid.hpp"
+#include "piola/particles/body_range.hpp"
 #include "piola/particles/particle_set.hpp"
 #include <array>
 #include <limits>

@@ -3,6 +3,7 @@
 #include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/neighbours/nearest_particle.hpp"
+#include "piola/particles/body_range.hpp"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

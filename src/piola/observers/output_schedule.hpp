@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/base/contracts.hpp"
 #include <cmath>
 
 namespace piola {
@@ -7,10 +8,11 @@ namespace piola {
 /// Due times of an output: the first step at or after each multiple of an interval; 0 means never.
 class Schedule {
  public:
-  explicit Schedule(double every) : every_(every) {}
+  explicit Schedule(double every) : every_(every) { PIOLA_EXPECTS(every >= 0); }
   bool ever() const { return every_ > 0; }
   /// Whether an output is due at this time [s]; if so, the next one is due after it.
   bool due(double time) {
+    PIOLA_EXPECTS(std::isfinite(time));
     if (!ever()) return false;
     double const multiple =
         std::floor(time / every_ * (1 + 1e-12));  // a multiple missed only by round-off counts as reached

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/observers/results_folder.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/base/read_file.hpp"
 #include "piola/base/version.hpp"
@@ -162,6 +163,7 @@ fs::path folder_for_unfinished(fs::path const& results) {
 }
 
 void check_results(fs::path const& folder, ResultsOf const& run) {
+  PIOLA_EXPECTS(!folder.empty());
   protect_case(folder, run.case_file);
   make_folder(folder);
   if (!holds_anything(folder) || run.force) return;
@@ -176,6 +178,7 @@ void check_results(fs::path const& folder, ResultsOf const& run) {
 }
 
 void clear_results(fs::path const& folder) {
+  PIOLA_EXPECTS(!folder.empty());
   for (char const* name : own_folders) clear_folder(folder, name);
   for (char const* name : own_files) remove_file(folder / name);
 }

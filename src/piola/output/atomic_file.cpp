@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/atomic_file.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include <algorithm>
 #include <cerrno>
@@ -102,6 +103,7 @@ std::string was_removed(std::filesystem::path const& path) {
 }
 
 int open_result(std::filesystem::path const& path, Opening how) {
+  PIOLA_EXPECTS(!path.empty());
   int fd = try_to_open(path, how);
   if (fd < 0 && errno == ENOENT && how != Opening::replace) throw FileError(was_removed(path));
   if (fd < 0) throw FileError(write_error_text(path, errno));
@@ -119,6 +121,7 @@ ResultFile open_result_file(std::filesystem::path const& path, Opening how) {
 }
 
 bool still_there(int fd, std::filesystem::path const& path) {
+  PIOLA_EXPECTS(fd >= 0);
   struct stat opened {};
   struct stat named {};
   return ::fstat(fd, &opened) == 0 && ::lstat(path.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
@@ -153,6 +156,7 @@ void AtomicFile::throw_if_failed() const {
 }
 
 void AtomicFile::finish(std::uint64_t bytes, std::string_view end) {
+  PIOLA_EXPECTS(fd_ >= 0);
   write(bytes, std::as_bytes(std::span(end.data(), end.size())));
   if (error_ == 0 && ::fsync(fd_) != 0) error_ = errno;
   throw_if_failed();
@@ -204,6 +208,7 @@ void write_whole_file(std::filesystem::path const& path, std::string_view conten
 
 bool overwrite_end(std::filesystem::path const& path, std::uint64_t size, std::uint64_t old_end,
                    std::string_view text) {
+  PIOLA_EXPECTS(old_end <= size);
   Descriptor file(::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   struct stat now {};
   if (file.get() < 0 || !is_ours_alone(file.get()) || ::fstat(file.get(), &now) != 0 ||

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/checkpoint.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/output/atomic_file.hpp"
@@ -147,6 +148,7 @@ void find_duration(std::filesystem::path const& results, Checkpoint& checkpoint)
 }  // namespace
 
 void NamedState::put(std::string_view name, std::span<double const> values) {
+  PIOLA_EXPECTS(!name.empty());
   arrays_.insert_or_assign(std::string(name), std::vector<double>(values.begin(), values.end()));
 }
 
@@ -164,6 +166,7 @@ void NamedState::get(std::string_view name, std::span<double> values) {
 
 void write_checkpoint(std::filesystem::path const& path, Checkpoint const& c,
                       std::function<void(StateWriter&)> const& save) {
+  PIOLA_EXPECTS(c.step >= 0);
   make_folder(path.parent_path());
   hdf5::Writer file(path);
   file.attribute("/", "piola_checkpoint", std::array{layout_version});
@@ -221,6 +224,7 @@ Checkpoint read_checkpoint(std::filesystem::path const& path) {
 }
 
 std::filesystem::path checkpoint_path(std::filesystem::path const& results, std::int64_t step) {
+  PIOLA_EXPECTS(step >= 0);
   return results / "checkpoints" / fmt::format("{:09}.h5", step);
 }
 
@@ -248,6 +252,7 @@ void keep_checkpoint(std::filesystem::path const& results, Checkpoint const& che
 
 bool use_newest_checkpoint(std::filesystem::path const& results, std::vector<std::string>& warnings,
                            std::function<bool(Checkpoint&)> const& use) {
+  PIOLA_EXPECTS(use != nullptr);
   bool declined = false;
   for (auto const& path : list_checkpoints(results)) {
     try {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/collective_table_reader.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include <array>
 #include <cstdint>
@@ -24,6 +25,8 @@ std::unique_ptr<SharedFile> open_on_all(std::filesystem::path const& of_first, S
 
 bool CollectiveTableReader::read(std::optional<FileExtent> const& place, DistributedRows const& rows,
                                  std::span<double> values) {
+  PIOLA_EXPECTS(rows.columns >= 1 && rows.count >= 0);
+  PIOLA_EXPECTS(values.size() % static_cast<std::size_t>(rows.columns) == 0);
   std::array<std::uint64_t, 2> about{place ? 1U : 0U, place ? place->at : 0};
   comm::broadcast_bytes(about.data(), sizeof about);
   if (about[0] == 0) return false;

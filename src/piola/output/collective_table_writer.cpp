@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/collective_table_writer.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/output/collective_table_reader.hpp"
@@ -109,6 +110,8 @@ void CollectiveTableWriter::put_chunks(std::string const& path, DistributedRows 
 template <class T>
 void CollectiveTableWriter::put(std::string const& path, DistributedRows const& rows, std::span<T const> values,
                                 hdf5::Storage storage) {
+  PIOLA_EXPECTS(!ended_ && rows.columns >= 1 && rows.count >= 0);
+  PIOLA_EXPECTS(values.size() % static_cast<std::size_t>(rows.columns) == 0);
   join();
   if (storage == hdf5::Storage::compressed && rows.count > 1)
     put_chunks(path, rows, values);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/deflate.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/threads.hpp"
 #include <algorithm>
 #include <atomic>
@@ -38,6 +39,7 @@ std::vector<std::byte> deflate_one(libdeflate_compressor* compressor, std::span<
 
 std::vector<std::vector<std::byte>> deflate_chunks(std::span<std::byte const> bytes, std::size_t chunk,
                                                    std::size_t width) {
+  PIOLA_EXPECTS(width > 0 && chunk > 0 && chunk % width == 0);
   std::size_t const count = (bytes.size() + chunk - 1) / chunk;
   std::vector<std::vector<std::byte>> packed(count);
   std::size_t const workers =

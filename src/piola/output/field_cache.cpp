@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/field_cache.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/formulations/derived_fields.hpp"
 #include <algorithm>
 #include <cmath>
@@ -56,6 +57,7 @@ std::span<double const> FieldCache::values(std::string_view field) {
 }
 
 std::vector<double> component_values(FieldCache& cache, std::string_view field, int component) {
+  PIOLA_EXPECTS(component == FieldQuantity::magnitude || (component >= 0 && component < cache.info(field).components));
   auto const width = static_cast<std::size_t>(cache.info(field).components);
   auto const all = cache.values(field);
   std::vector<double> out(all.size() / width);

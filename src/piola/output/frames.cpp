@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/frames.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/derived_fields.hpp"
 #include "piola/formulations/field_signs.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/output/hdf5.hpp"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <numeric>
 
@@ -114,6 +116,7 @@ void FrameContent::describe(hdf5::Writer& file) const {
 }
 
 void FrameWriter::write(double time, FieldCache& cache, WithAll const& with_all) {
+  PIOLA_EXPECTS(std::isfinite(time));
   make_folder(folder_ / "frames");
   hdf5::Writer file(folder_ / frame_name(times_.size()));
   file.group("/VTKHDF/PointData");

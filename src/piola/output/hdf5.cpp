@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/hdf5.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/output/checksum_trailer.hpp"
 #include "piola/output/hdf5_driver.hpp"
@@ -33,6 +34,7 @@ struct Writer::Parts {
   explicit Parts(std::filesystem::path path) : disk(std::move(path)), file(create_on(disk)) {}
   /// Identifier of the open file. Throws FileError if an earlier write has failed.
   hid_t id() const {
+    PIOLA_EXPECTS(file.has_value());
     disk.on_disk.throw_if_failed();
     return file->id();
   }
@@ -55,6 +57,7 @@ Writer::Writer(std::filesystem::path path) : parts_(std::make_unique<Parts>(std:
 Writer::~Writer() = default;
 
 void Writer::group(std::string const& path) {
+  PIOLA_EXPECTS(!path.empty());
   Handle const links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "a property list");
   check(H5Pset_create_intermediate_group(links.id(), 1), path);
   Handle const made(H5Gcreate2(parts_->id(), path.c_str(), links.id(), H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path);
@@ -67,6 +70,7 @@ WrittenPart part_of(std::uint64_t at, std::span<std::byte const> bytes) {
 }
 
 std::uint64_t chunk_rows(std::uint64_t rows, int columns, std::size_t bytes) {
+  PIOLA_EXPECTS(columns >= 1 && bytes > 0);
   std::uint64_t const row = bytes * static_cast<std::uint64_t>(columns);
   return std::clamp<std::uint64_t>(chunk_bytes / row, 1, std::max<std::uint64_t>(rows, 1));
 }
@@ -94,6 +98,7 @@ Handle Writer::make_dataset(std::string const& path, hid_t type, std::uint64_t r
 
 template <class T>
 void Writer::dataset(std::string const& path, std::span<T const> values, int columns) {
+  PIOLA_EXPECTS(columns >= 1 && values.size() % static_cast<std::size_t>(columns) == 0);
   hid_t const type = native_type<T>();
   Handle const set = make_dataset(path, type, values.size() / static_cast<std::size_t>(columns), columns, 0, false);
   if (!values.empty()) check(H5Dwrite(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), path);
@@ -101,6 +106,7 @@ void Writer::dataset(std::string const& path, std::span<T const> values, int col
 
 template <class T>
 std::uint64_t Writer::reserve(std::string const& path, std::uint64_t rows, int columns) {
+  PIOLA_EXPECTS(columns >= 1);
   Handle const set = make_dataset(path, native_type<T>(), rows, columns, 0, true);
   return rows == 0 ? 0 : H5Dget_offset(set.id());
 }
@@ -108,6 +114,7 @@ std::uint64_t Writer::reserve(std::string const& path, std::uint64_t rows, int c
 template <class T>
 std::vector<std::uint64_t> Writer::reserve_chunks(std::string const& path, std::uint64_t rows, int columns,
                                                   std::span<std::uint64_t const> bytes) {
+  PIOLA_EXPECTS(columns >= 1);
   std::uint64_t const chunk = chunk_rows(rows, columns, sizeof(T));
   Handle const set = make_dataset(path, native_type<T>(), rows, columns, chunk, false);
   // HDF5 allocates a chunk when it is written. In reserving mode the driver records the offset instead of writing.
@@ -154,6 +161,7 @@ template void Writer::dataset(std::string const&, std::span<std::uint8_t const>,
 template void Writer::dataset(std::string const&, std::span<char const>, int);
 
 void Writer::attribute(std::string const& object, std::string const& name, std::string_view text) {
+  PIOLA_EXPECTS(!name.empty());
   // VTK requires a plain ASCII string of fixed length.
   Handle const type(H5Tcopy(H5T_C_S1), H5Tclose, name);
   check(H5Tset_size(type.id(), std::max<std::size_t>(text.size(), 1)), name);
@@ -167,6 +175,7 @@ void Writer::attribute(std::string const& object, std::string const& name, std::
 }
 
 void Writer::attribute(std::string const& object, std::string const& name, std::span<std::int64_t const> values) {
+  PIOLA_EXPECTS(!name.empty());
   hsize_t const count = values.size();
   Handle const space(H5Screate_simple(1, &count, nullptr), H5Sclose, name);
   Handle const owner(H5Oopen(parts_->id(), object.c_str(), H5P_DEFAULT), H5Oclose, object);
@@ -176,6 +185,7 @@ void Writer::attribute(std::string const& object, std::string const& name, std::
 }
 
 void Writer::attribute(std::string const& object, std::string const& name, double value) {
+  PIOLA_EXPECTS(!name.empty());
   Handle const space(H5Screate(H5S_SCALAR), H5Sclose, name);
   Handle const owner(H5Oopen(parts_->id(), object.c_str(), H5P_DEFAULT), H5Oclose, object);
   Handle const made(H5Acreate2(owner.id(), name.c_str(), H5T_NATIVE_DOUBLE, space.id(), H5P_DEFAULT, H5P_DEFAULT),
@@ -184,6 +194,7 @@ void Writer::attribute(std::string const& object, std::string const& name, doubl
 }
 
 void Writer::finish() {
+  PIOLA_EXPECTS(parts_->file.has_value());
   check(H5Fflush(parts_->id(), H5F_SCOPE_GLOBAL), "the file");
   parts_->file.reset();
   AppendOnlyFile& disk = parts_->disk;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/history.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/formulations/quantity_names.hpp"
 #include "piola/formulations/renamed_outputs.hpp"
@@ -140,6 +141,7 @@ void add_rigid(std::vector<double>& row, RigidState const& rigid) {
 }  // namespace
 
 std::vector<double> diagnostic_values(double time, std::int64_t step, double dt, Diagnostics const& d) {
+  PIOLA_EXPECTS(step >= 0);
   auto const& p = d.linear_momentum;
   auto const& l = d.angular_momentum;
   std::vector<double> row{time,
@@ -179,6 +181,7 @@ std::vector<double> diagnostic_values(double time, std::int64_t step, double dt,
 }
 
 HistoryFile::HistoryFile(std::filesystem::path path, std::vector<HistoryColumn> columns) : path_(std::move(path)) {
+  PIOLA_EXPECTS(!columns.empty());
   table_.columns = std::move(columns);
   open(Opening::replace);
   put(header(table_.columns));
@@ -244,6 +247,7 @@ void HistoryFile::put(std::string const& line) {
 }
 
 std::vector<std::string> HistoryFile::append(std::vector<double> const& row) {
+  PIOLA_EXPECTS(row.size() == table_.columns.size());
   std::vector<std::string> bad;
   fmt::memory_buffer line;
   for (std::size_t c = 0; c < row.size(); ++c) {

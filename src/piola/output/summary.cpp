@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/summary.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/output/atomic_file.hpp"
 #include <nlohmann/json.hpp>
 
@@ -44,6 +45,7 @@ nlohmann::ordered_json identity_json(Identity const& identity) {
 }  // namespace
 
 std::string to_json(Summary const& s) {
+  PIOLA_EXPECTS(s.threads >= 1 && s.particles >= 0 && s.steps >= 0);
   nlohmann::ordered_json quantities = nlohmann::ordered_json::object();
   for (MeasuredQuantity const& q : s.quantities) quantities[q.name] = {{"value", q.value}, {"unit", q.unit}};
   nlohmann::ordered_json document{{"status", s.status},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/particles/body_extents.hpp"
 #include "piola/base/contracts.hpp"
+#include "piola/particles/body_range.hpp"
 #include <algorithm>
 
 namespace piola {

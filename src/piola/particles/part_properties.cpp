@@ -2,6 +2,7 @@
 #include "piola/particles/part_properties.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/exec/reproducible_sum.hpp"
+#include "piola/particles/body_range.hpp"
 
 namespace piola {
 

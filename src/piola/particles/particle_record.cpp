@@ -3,6 +3,7 @@
 #include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/math/digest.hpp"
+#include "piola/particles/body_range.hpp"
 #include <fmt/format.h>
 
 namespace piola {

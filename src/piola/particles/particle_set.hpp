@@ -66,11 +66,6 @@ struct ParticleSet {
   }
 };
 
-/// Whether the ids of a body are those of particles of the set.
-inline bool is_range_in(Body const& body, ParticleSet const& particles) {
-  return body.first >= 0 && body.first <= body.last && body.last <= particles.size();
-}
-
 /// Which of its body's materials a particle has.
 inline std::size_t part_of(ParticleSet const& particles, std::size_t id) {
   return particles.part.empty() ? 0 : static_cast<std::size_t>(particles.part[id]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/pictures/case_scene.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/drawing/skin.hpp"
 #include "piola/math/quaternion.hpp"
 #include "piola/model/case_particles.hpp"
@@ -69,6 +70,7 @@ Up upwards(CaseSpec const& spec) {
 }
 
 std::vector<RigidShape> shapes_at(std::vector<RigidSpec> const& rigids, double time, std::span<double const> poses) {
+  PIOLA_EXPECTS(poses.size() % 6 == 0);
   // Midpoints of this number of intervals: exact for the constant and linear velocities of most cases.
   constexpr int intervals = 1000;
   std::vector<RigidShape> shapes;
@@ -147,6 +149,7 @@ std::vector<std::vector<Index>> current_torn_cells(std::span<ReferenceMesh const
                                                    std::span<std::array<double, 3> const> points,
                                                    std::span<std::uint8_t const> loose,
                                                    std::vector<std::vector<Index>> const& before) {
+  PIOLA_EXPECTS(loose.empty() || loose.size() == points.size());
   std::vector<std::vector<Index>> torn;
   for (std::size_t b = 0; b < meshes.size(); ++b) {
     ReferenceMesh const& mesh = meshes[b];

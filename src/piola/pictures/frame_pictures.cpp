@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/pictures/frame_pictures.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/observers/results_folder.hpp"
 #include "piola/output/atomic_file.hpp"
@@ -203,6 +204,7 @@ void FramePictures::share_with(FramePictures& other) {
 }
 
 std::size_t FramePictures::nearest(double time) const {
+  PIOLA_EXPECTS(!frames_.empty());
   auto const found = std::min_element(frames_.begin(), frames_.end(), [&](Entry const& a, Entry const& b) {
     return std::abs(a.time - time) < std::abs(b.time - time);
   });
@@ -210,6 +212,7 @@ std::size_t FramePictures::nearest(double time) const {
 }
 
 TimeFormat FramePictures::time_format() const {
+  PIOLA_EXPECTS(run_.time_format || !frames_.empty());
   if (run_.time_format) return *run_.time_format;
   double const first = frames_.front().time, last = frames_.back().time;
   double const count = static_cast<double>(frames_.size());
@@ -217,6 +220,7 @@ TimeFormat FramePictures::time_format() const {
 }
 
 std::string FramePictures::name(std::size_t k) const {
+  PIOLA_EXPECTS(k < frames_.size());
   PanelView const& first = views_.front();
   std::string name = picture_name(first.spec.field, first.field.components, first.component, frames_[k].number);
   std::set<std::string> known{first.spec.field};
@@ -278,6 +282,7 @@ PictureStyle FramePictures::style(std::size_t panel, Window const& window) const
 }
 
 Image FramePictures::picture(std::size_t k) const {
+  PIOLA_EXPECTS(k < frames_.size());
   Shot const shot = read(frames_[k].path);
   auto const windows = look().window;
   std::vector<PanelPicture> panels;
@@ -289,6 +294,7 @@ Image FramePictures::picture(std::size_t k) const {
 
 Image FramePictures::sheet(std::span<FramePictures const* const> runs, std::span<std::size_t const> frames,
                            std::span<std::string const> captions, Sheet labels) {
+  PIOLA_EXPECTS(!runs.empty() && frames.size() == runs.size() && captions.size() == runs.size());
   std::vector<Shot> shots;
   std::vector<PictureData> data;
   std::vector<Panel> panels;

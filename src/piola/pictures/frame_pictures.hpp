@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/base/contracts.hpp"
 #include "piola/drawing/panels.hpp"
 #include "piola/drawing/rigid_picture.hpp"
 #include "piola/input/case_spec.hpp"
@@ -56,8 +57,14 @@ class FramePictures {
   void share_with(FramePictures& other);
 
   std::size_t count() const { return frames_.size(); }
-  double time(std::size_t k) const { return frames_[k].time; }
-  std::filesystem::path const& frame(std::size_t k) const { return frames_[k].path; }
+  double time(std::size_t k) const {
+    PIOLA_EXPECTS(k < frames_.size());
+    return frames_[k].time;
+  }
+  std::filesystem::path const& frame(std::size_t k) const {
+    PIOLA_EXPECTS(k < frames_.size());
+    return frames_[k].path;
+  }
   /// The frame nearest in time; there must be one.
   std::size_t nearest(double time) const;
   TimeFormat time_format() const;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/pictures/picture_overrides.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/formulations/field_signs.hpp"
 #include <algorithm>
@@ -56,6 +57,8 @@ PictureSpec with_overrides(PictureSpec picture, PictureOverrides const& look) {
 }
 
 Camera camera_of(PictureSpec const& picture, Up up, std::span<BodySpec const> bodies, int dimension) {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
+  PIOLA_EXPECTS(picture.zoom > 0);
   Camera camera{
       .view = {picture.view[0], picture.view[1], up, picture.roll}, .zoom = picture.zoom, .look_at = picture.look_at};
   if (auto const named = named_view(picture.named_view, up)) {

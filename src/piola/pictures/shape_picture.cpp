@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/pictures/shape_picture.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
 #include "piola/drawing/rigid_picture.hpp"
@@ -72,6 +73,7 @@ Paint by_patch(CaseSpec const& spec, ParticleSet const& particles) {
 }  // namespace
 
 Image draw_shape(CaseSpec const& spec, ParticleSet const& particles, ShapePictureOptions const& options) {
+  PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   Paint const paint = options.patches ? by_patch(spec, particles) : by_body(particles);
   std::vector<std::array<double, 3>> points;
   for (std::size_t i = 0; i < particles.X.size(); ++i)

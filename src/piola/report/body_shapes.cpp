@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/body_shapes.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/math/symmetric_eigen.hpp"
 #include "piola/observers/results_folder.hpp"
@@ -84,6 +85,7 @@ BodySurfaces BodyShapes::surfaces(FrameReader const& frame) const {
 }
 
 ByteScale BodyShapes::stretch_scale(std::size_t component) {
+  PIOLA_EXPECTS(component < stretch_components);
   // Codes represent 1 and 0, the components of an unstretched ball, exactly. Largest values: 4 on the diagonal, half of
   // 4 - 1/3 off it.
   if (component < 3) return {0.3, 0.3 + 0.7 * 254 / 44};
@@ -91,6 +93,7 @@ ByteScale BodyShapes::stretch_scale(std::size_t component) {
 }
 
 std::array<std::vector<std::uint8_t>, 6> BodyShapes::stretches(FrameReader const& frame, std::size_t every) const {
+  PIOLA_EXPECTS(every >= 1);
   ParticlesNow const now = particles_in(frame);
   std::array<std::vector<std::uint8_t>, stretch_components> bytes;
   for (std::size_t c = 0; c < stretch_components; ++c)

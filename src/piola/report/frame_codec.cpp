@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/frame_codec.hpp"
+#include "piola/base/contracts.hpp"
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -31,6 +32,7 @@ void put_differences(std::vector<std::uint8_t>& bytes, std::size_t count, Residu
 }  // namespace
 
 Lattice Lattice::of(std::array<double, 3> const& low, std::array<double, 3> const& high, int bits) {
+  PIOLA_EXPECTS(bits >= 2 && bits <= 16);
   Lattice lattice{.low = low, .bits = bits};
   for (std::size_t c = 0; c < 3; ++c) lattice.step[c] = (high[c] - low[c]) / (lattice.missing() - 1);
   return lattice;
@@ -69,6 +71,7 @@ void FrameCodec::keep(FrameCodes frame, bool key) {
 }
 
 std::vector<std::uint8_t> FrameCodec::encode(FrameCodes const& frame, bool key) {
+  PIOLA_EXPECTS(frame.x[1].size() == frame.x[0].size() && frame.x[2].size() == frame.x[0].size());
   std::size_t const n = frame.x[0].size();
   if (key) known_ = 0;
   std::vector<std::uint8_t> bytes;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/frame_content.hpp"
+#include "piola/base/contracts.hpp"
 
 namespace piola::report {
 namespace {
@@ -31,6 +32,7 @@ FrameCodes planned_codes(FrameReader const& frame, FrameStatistics const& survey
 }
 
 std::vector<std::uint16_t> planned_bodies(FrameStatistics const& survey, Plan const& plan, SurfaceData const& shaping) {
+  PIOLA_EXPECTS(plan.every >= 1);
   std::vector<std::uint16_t> body;
   if (shaping.surfaces)
     for (std::uint32_t const i : shaping.surfaces->particles) body.push_back(survey.body[i]);

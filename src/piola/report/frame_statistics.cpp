@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/frame_statistics.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/drawing/picture.hpp"
 #include "piola/formulations/field_signs.hpp"
@@ -164,6 +165,7 @@ std::vector<float> shown_values(FrameReader const& frame, FieldInfo const& info)
 
 FrameStatistics survey_frames(RunFolder const& run, std::vector<std::size_t> const& frames,
                               std::vector<std::string> const& fields) {
+  PIOLA_EXPECTS(!frames.empty() && frames.back() < run.frames.size());
   FrameStatistics survey = begin(FrameReader(run.frames[frames.front()].second), fields);
   survey.frames = frames;
   std::vector<Extent> axes(3, Extent(frames.size())), ranges(fields.size(), Extent(frames.size()));
@@ -203,6 +205,7 @@ FrameStatistics survey_frames(RunFolder const& run, std::vector<std::size_t> con
 
 FrameCodes codes_of(FrameReader const& frame, FrameStatistics const& survey, Lattice const& lattice, std::size_t fields,
                     std::size_t every) {
+  PIOLA_EXPECTS(every >= 1 && fields <= survey.fields.size());
   FrameCodes codes;
   {
     auto const points = frame.points();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/page.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include <cerrno>
 #include <fmt/format.h>
@@ -56,6 +57,7 @@ void PageFile::put(std::string_view text) {
 }
 
 void PageFile::data(std::string const& name, std::string_view text, bool json) {
+  PIOLA_EXPECTS(file_ != nullptr);
   put(json ? "<script type=\"application/json\" id=\"data-" : "<script type=\"application/octet-stream\" id=\"data-");
   put(name + "\">");
   put(text);
@@ -63,6 +65,7 @@ void PageFile::data(std::string const& name, std::string_view text, bool json) {
 }
 
 void PageFile::finish() {
+  PIOLA_EXPECTS(file_ != nullptr);
   put("<script>\n(function () {\n\"use strict\";\n");
   put(web::script);
   put("}());\n</script>\n</body>\n</html>\n");

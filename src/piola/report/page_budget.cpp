@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/page_budget.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/report/frame_content.hpp"
 #include <algorithm>
@@ -32,6 +33,8 @@ double expected_size(RunFolder const& run, FrameStatistics const& survey, Plan c
 
 Plan fitting_plan(RunFolder const& run, FrameStatistics const& survey, Plan plan, PageBudget const& limits,
                   SurfaceData const& shaping) {
+  PIOLA_EXPECTS(plan.every >= 1 && plan.fields <= survey.fields.size());
+  PIOLA_EXPECTS(limits.bytes > 0 && limits.correction > 0);
   auto const share = [&] { return limits.bytes / (limits.correction * expected_size(run, survey, plan, shaping)); };
   double fits = share();
   if (fits < 1 && plan.stretched) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/base/contracts.hpp"
 #include "piola/report/frame_statistics.hpp"
 #include <string>
 #include <vector>
@@ -15,7 +16,10 @@ struct Plan {
   int bits = 14;                         ///< of a coordinate
   std::size_t every = 1;                 ///< every `every`-th particle
   bool stretched = false;                ///< balls are, by F
-  std::size_t particles(std::size_t all) const { return (all + every - 1) / every; }
+  std::size_t particles(std::size_t all) const {
+    PIOLA_EXPECTS(every >= 1);
+    return (all + every - 1) / every;
+  }
 };
 
 /// Limits for reducing a plan.

@@ -4,6 +4,7 @@
 #include "piola/kernels/wendland_c2.hpp"
 #include "piola/math/symmetric_eigen.hpp"
 #include "piola/neighbours/cell_grid.hpp"
+#include "piola/particles/body_range.hpp"
 #include "piola/setup/cloud_checks.hpp"
 #include <algorithm>
 #include <cmath>

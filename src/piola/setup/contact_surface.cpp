@@ -2,6 +2,7 @@
 #include "piola/setup/contact_surface.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/math/array_conversion.hpp"
+#include "piola/particles/body_range.hpp"
 #include "piola/setup/faces.hpp"
 #include "piola/setup/packed_bodies.hpp"
 #include <algorithm>

@@ -3,6 +3,7 @@
 #include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
+#include "piola/particles/body_range.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>

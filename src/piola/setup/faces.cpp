@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/faces.hpp"
 #include "piola/base/contracts.hpp"
+#include "piola/particles/body_range.hpp"
 #include "piola/setup/packed_bodies.hpp"
 #include <algorithm>
 #include <cmath>

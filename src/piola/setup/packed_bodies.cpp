@@ -10,6 +10,7 @@
 #include "piola/math/array_conversion.hpp"
 #include "piola/neighbours/nearest_particle.hpp"
 #include "piola/output/atomic_file.hpp"
+#include "piola/particles/body_range.hpp"
 #include "piola/setup/cloud_file.hpp"
 #include "piola/setup/packing_file.hpp"
 #include <algorithm>

@@ -2,6 +2,7 @@
 #include "piola/setup/random_cloud.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/neighbours/particle_cells.hpp"
+#include "piola/particles/body_range.hpp"
 #include <random>
 
 namespace piola {

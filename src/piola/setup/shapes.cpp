@@ -2,6 +2,7 @@
 #include "piola/setup/shapes.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/geometry/packing.hpp"
+#include "piola/particles/body_range.hpp"
 #include "piola/setup/cloud_file.hpp"
 #include "piola/setup/lattice_generator.hpp"
 #include "piola/setup/packed_bodies.hpp"

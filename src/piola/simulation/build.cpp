@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/build.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
 #include "piola/exec/heap_tuning.hpp"
@@ -238,6 +239,7 @@ Assembly assemble(CaseSpec const& spec) {
 }
 
 Assembly assemble(CaseSpec const& spec, ParticleSet particles) {
+  PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   Assembly a;
   Problems problems;
   report_mixed_start(spec, problems);

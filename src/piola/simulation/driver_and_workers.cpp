@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/driver_and_workers.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/domain/error_agreement.hpp"
 #include "piola/formulations/common/set_up_checks.hpp"
@@ -11,6 +12,7 @@
 #include <array>
 #include <bit>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <fmt/format.h>
 #include <limits>
@@ -274,17 +276,20 @@ void agree_to_continue() {
 }
 
 std::unique_ptr<Formulation> driven_by_root(std::unique_ptr<Formulation> formulation) {
+  PIOLA_EXPECTS(formulation != nullptr);
   if (!comm::is_parallel() || comm::rank() != 0) return formulation;
   return std::make_unique<DriverProxy>(std::move(formulation));
 }
 
 void evaluate_probes_collectively(double time, std::function<void()> const& look) {
+  PIOLA_EXPECTS(std::isfinite(time) && look != nullptr);
   ExcludeFromStepTraffic const aside;
   if (comm::is_parallel() && comm::rank() == 0) send({Command::What::probes, time});
   look();
 }
 
 void write_frame_collectively(bool failed, std::function<void()> const& write) {
+  PIOLA_EXPECTS(write != nullptr);
   GatherTimer const gathering;
   ExcludeFromStepTraffic const aside;
   if (comm::is_parallel() && comm::rank() == 0) send({.what = Command::What::frame, .code = failed ? 1 : 0});
@@ -292,6 +297,7 @@ void write_frame_collectively(bool failed, std::function<void()> const& write) {
 }
 
 int follow(Simulation& simulation) {
+  PIOLA_EXPECTS(simulation.formulation != nullptr);
   Formulation& formulation = *simulation.formulation;
   std::optional<ProbeSet> probes;  // made when rank 0 has made them without complaint
   for (;;) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/dynamic_relaxation.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/exec/reproducible_sum.hpp"
 #include <algorithm>
 #include <array>
@@ -26,13 +27,16 @@ constexpr double steps_of_short_stop = 3;
 }  // namespace
 
 Relaxation::Relaxation(RunSpec const& run, ParticleSet const& particles, double mass)
-    : rate_(run.damping), relax_(run.relax), limit_(run.relax_tolerance), particles_(particles), mass_(mass) {}
+    : rate_(run.damping), relax_(run.relax), limit_(run.relax_tolerance), particles_(particles), mass_(mass) {
+  PIOLA_EXPECTS(mass >= 0 && run.damping >= 0);
+}
 
 void Relaxation::start(Formulation& formulation) const {
   if (relax_) formulation.damp(0);
 }
 
 bool Relaxation::after_step(Formulation& formulation, double dt) {
+  PIOLA_EXPECTS(dt > 0);
   if (rate_ > 0) formulation.damp(std::exp(-rate_ * dt));
   if (!relax_) return false;
   if (++swing_.window > window_steps) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/guard_observer.hpp"
+#include "piola/base/contracts.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
@@ -24,6 +25,7 @@ GuardObserver::GuardObserver(Results results, double mass, HistoryObserver const
       history_(history),
       scale_(mass, finest_spacing(results_.particles), roundoff_energy(results_.spec, results_.particles)),
       jump_(results_.spec, results_.particles, scale_) {
+  PIOLA_EXPECTS(mass >= 0);
   if (results_.spec.run.guards.on) guards_ = make_guards(results_.spec, results_.particles);
   told_.assign(guards_.size(), 0);
   kicked_ = starts_under_pressure(results_.spec);

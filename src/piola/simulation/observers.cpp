@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/observers.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/base/version.hpp"
 #include "piola/exec/backend_registry.hpp"
@@ -9,6 +10,7 @@
 #include "piola/particles/particle_record.hpp"
 #include "piola/simulation/driver_and_workers.hpp"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace piola {
@@ -42,6 +44,7 @@ void EmptyCells::add(std::vector<std::string> const& columns, double time) {
 }
 
 std::string EmptyCells::text(std::size_t first) const {
+  PIOLA_EXPECTS(first < rows_.size());
   std::string text;
   for (std::size_t k = first; k < rows_.size(); ++k)
     text += fmt::format("{}{} at t = {} s", text.empty() ? "" : ", then ", joined(rows_[k].second), rows_[k].first);
@@ -89,6 +92,7 @@ void HistoryObserver::observe(Formulation const& formulation, TimeState const& m
 }
 
 void HistoryObserver::finish(Formulation const& formulation, TimeState const& moment, RunStatus ending) {
+  PIOLA_EXPECTS(file_.has_value());
   auto const& rows = table().rows;
   bool const written = !rows.empty() && rows.back()[1] == static_cast<double>(moment.step);
   // A stopped run gets no extra row, so that the history of a resumed run equals that of an uninterrupted one.
@@ -97,6 +101,7 @@ void HistoryObserver::finish(Formulation const& formulation, TimeState const& mo
 }
 
 void HistoryObserver::save(StateWriter& writer) const {
+  PIOLA_EXPECTS(file_.has_value());
   std::vector<double> angles;
   for (Probe const& probe : probes_.probes()) angles.push_back(probe.state());
   writer.put("probe_angles", angles);
@@ -123,6 +128,7 @@ FrameObserver::FrameObserver(Results results)
       writer_(results_.folder, {}, results_.spec.output.compress) {}
 
 void FrameObserver::write(Formulation const& formulation, double time, bool failed) {
+  PIOLA_EXPECTS(std::isfinite(time));
   if (!times().empty() && times().back() == time) return;
   writer_.set_fields(fields_of_frames(results_.spec.output, failed));
   FieldCache cache(formulation, results_.particles, FieldCache::Of::local);
@@ -157,6 +163,7 @@ CheckpointObserver::CheckpointObserver(Results results, std::vector<Observer*> o
       others_(std::move(others)),
       orders_(orders),
       particles_(results_.folder.empty() ? "" : particle_record(results_.particles)) {
+  PIOLA_EXPECTS(std::find(others_.begin(), others_.end(), nullptr) == others_.end());
   schedule_.due(0);  // the state at the start is the case itself
 }
 
@@ -215,7 +222,9 @@ void CheckpointObserver::load(NamedState&, TimeState const& moment) { schedule_.
 
 ProgressObserver::ProgressObserver(Listener& listener, double end, std::int64_t particles,
                                    HistoryObserver const& history)
-    : listener_(listener), end_(end), particles_(static_cast<double>(particles)), history_(history) {}
+    : listener_(listener), end_(end), particles_(static_cast<double>(particles)), history_(history) {
+  PIOLA_EXPECTS(particles >= 0);
+}
 
 void ProgressObserver::observe(Formulation const& formulation, TimeState const& moment) {
   constexpr std::chrono::milliseconds pause(200);

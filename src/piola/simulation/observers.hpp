@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/base/contracts.hpp"
 #include "piola/measures/probe_set.hpp"
 #include "piola/observers/observer.hpp"
 #include "piola/observers/output_schedule.hpp"
@@ -39,11 +40,17 @@ class HistoryObserver : public Observer {
   void finish(Formulation const& formulation, TimeState const& moment, RunStatus ending) override;
   void save(StateWriter& writer) const override;
   void load(NamedState& reader, TimeState const& moment) override;
-  void sync() override { file_->sync(); }
+  void sync() override {
+    PIOLA_EXPECTS(file_.has_value());
+    file_->sync();
+  }
   std::vector<std::filesystem::path> files() const override { return {results_.folder / "history.csv"}; }
   /// Creates the file, or truncates it after `resume_time` (after load). Called before the first step.
   void open(Formulation const& formulation, std::optional<double> resume_time);
-  HistoryTable const& table() const { return file_->table(); }
+  HistoryTable const& table() const {
+    PIOLA_EXPECTS(file_.has_value());
+    return file_->table();
+  }
   /// The values of the row of this step; null if it has none.
   Diagnostics const* row_of(std::int64_t step) const { return last_ && last_step_ == step ? &*last_ : nullptr; }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/restore.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
 #include "piola/base/version.hpp"
@@ -70,6 +71,7 @@ void refuse_other_particles(Checkpoint const& c, ParticleSet const& particles, s
 
 std::optional<TimeState> restore(Simulation& s, std::filesystem::path const& folder, RunLog& journal,
                                  std::vector<Observer*> const& observers, bool cut_too) {
+  PIOLA_EXPECTS(s.formulation != nullptr);
   std::vector<std::string> warnings, changes;
   std::vector<std::filesystem::path> abandoned;
   TimeState moment;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/run_case.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
 #include "piola/formulations/common/set_up_checks.hpp"
@@ -18,6 +19,7 @@
 #include "piola/simulation/restore.hpp"
 #include "piola/simulation/run_summary.hpp"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace piola {
@@ -245,6 +247,7 @@ struct CaseRun::Parts {
 
 CaseRun::CaseRun(Simulation& s, RunOptions const& options, Listener& listener, std::atomic<int> const& stop)
     : parts_(std::make_unique<Parts>(s, options, listener, stop)) {
+  PIOLA_EXPECTS(s.formulation != nullptr);
   RunLog& journal = parts_->journal;
   if (!options.resume) {
     if (!options.folder.empty()) clear_results(options.folder);
@@ -266,7 +269,10 @@ CaseRun::CaseRun(Simulation& s, RunOptions const& options, Listener& listener, s
 CaseRun::~CaseRun() = default;
 
 TimeState const& CaseRun::moment() const { return parts_->moment; }
-void CaseRun::put_moment(TimeState const& moment) { parts_->moment = moment; }
+void CaseRun::put_moment(TimeState const& moment) {
+  PIOLA_EXPECTS(moment.step >= 0 && std::isfinite(moment.time));
+  parts_->moment = moment;
+}
 HistoryTable const& CaseRun::history() const { return parts_->watch.history.table(); }
 void CaseRun::also(Observer& observer) { parts_->watch.also.push_back(&observer); }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/run_summary.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/version.hpp"
 #include "piola/formulations/common/set_up_checks.hpp"
 #include "piola/measures/quantities.hpp"
@@ -107,6 +108,7 @@ double energy_decrease(HistoryTable const& history) { return largest_rise(histor
 
 Summary summarise(Simulation const& s, TimeState const& moment, RunStatus ending, HistoryTable const& history,
                   RunLog& journal) {
+  PIOLA_EXPECTS(s.formulation != nullptr);
   Summary summary;
   summary.status = status_word(ending);
   summary.title = s.spec.title;

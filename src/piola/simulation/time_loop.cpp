@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/time_loop.hpp"
+#include "piola/base/contracts.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -55,6 +56,7 @@ std::optional<LoopResult> show(Formulation& formulation, TimeState const& moment
 
 LoopResult march(Formulation& formulation, RunSpec const& run, TimeState& moment, std::span<Observer* const> observers,
                  StopConditions const& stops, Relaxation* relaxation) {
+  PIOLA_EXPECTS(moment.step >= 0 && std::isfinite(moment.time));
   auto const start = Clock::now();
   double const wall_before = moment.wall_seconds;
   if (relaxation != nullptr && moment.step == 0) relaxation->start(formulation);

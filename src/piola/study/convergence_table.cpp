@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/study/convergence_table.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include <algorithm>
 #include <cmath>
@@ -63,6 +64,7 @@ std::string padded(std::vector<std::vector<std::string>> const& lines) {
 ConvergenceTable::ConvergenceTable(std::vector<QuantitySpec> const& quantities, std::vector<double> spacings,
                                    std::vector<RunOutcome> const& outcomes)
     : spacings_(std::move(spacings)) {
+  PIOLA_EXPECTS(outcomes.size() == spacings_.size());
   for (QuantitySpec const& quantity : quantities) {
     Row row{quantity.name, quantity.unit, {}};
     std::vector<double> values;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/study/refinement.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/formulations/renamed_outputs.hpp"
 #include "piola/input/document.hpp"
@@ -74,6 +75,7 @@ std::vector<double> spacings_of(ShapeSpec const& shape, ShapeSpec const& as) {
 
 std::vector<std::string> spacing_settings(std::filesystem::path const& file, std::vector<std::string> const& settings,
                                           CaseSpec const& spec, double factor) {
+  PIOLA_EXPECTS(factor > 0);
   std::vector<std::string> more;
   if (factor == 1) return more;
   Document const document = document_of(file, settings);
@@ -112,6 +114,7 @@ std::string quantity_setting(std::filesystem::path const& file, std::vector<std:
 }
 
 SpacingRatio spacing_ratio(CaseSpec const& fine, CaseSpec const& coarse) {
+  PIOLA_EXPECTS(fine.bodies.size() == coarse.bodies.size());
   SpacingRatio ratio{1, std::numeric_limits<double>::infinity(), 0};
   double sum = 0, count = 0;
   for (std::size_t b = 0; b < fine.bodies.size(); ++b) {

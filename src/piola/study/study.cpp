@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/study/study.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/input/document.hpp"
 #include "piola/output/atomic_file.hpp"
@@ -189,6 +190,7 @@ RunOutcome outcome_of(std::filesystem::path const& results, EndedRun const& run)
 
 void write_study_table(std::filesystem::path const& folder, StudySpec const& study, std::vector<StudyRun> const& runs,
                        std::vector<RunOutcome> const& outcomes) {
+  PIOLA_EXPECTS(outcomes.size() == runs.size());
   std::vector<std::string> names;
   for (RunOutcome const& outcome : outcomes)
     for (MeasuredQuantity const& quantity : outcome.quantities)

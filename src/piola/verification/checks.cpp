@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/base/expression.hpp"
 #include "piola/base/text.hpp"
@@ -277,7 +278,10 @@ std::vector<std::string> const& evidence_words() {
   return words;
 }
 
-std::string const& evidence_word(Evidence evidence) { return evidence_words()[static_cast<std::size_t>(evidence)]; }
+std::string const& evidence_word(Evidence evidence) {
+  PIOLA_EXPECTS(static_cast<std::size_t>(evidence) < evidence_words().size());
+  return evidence_words()[static_cast<std::size_t>(evidence)];
+}
 
 std::string folder_of(std::string variant) {
   std::replace(variant.begin(), variant.end(), '/', '_');

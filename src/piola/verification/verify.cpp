@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/verification/verify.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/base/expression.hpp"
 #include "piola/base/text.hpp"
@@ -360,6 +361,7 @@ std::vector<fs::path> find_cases(fs::path const& cases, std::vector<std::string>
 
 std::vector<CaseVerification> verify(VerifyOptions const& options, Prepare const& prepare, Announce const& announce,
                                      std::atomic<int> const& stop) {
+  PIOLA_EXPECTS(prepare != nullptr);
   std::vector<Plan> const plans = all_plans(options);
   std::vector<double> work;
   for (Plan const& plan : plans)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/contact.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/adaptle/contact_sweep.hpp"
 #include <algorithm>
@@ -92,6 +93,7 @@ double flow_pressure(BodyConstants const& a, double v) { return 3 * a.yield_stre
 }  // namespace
 
 double contact_number(int dimension, double h, double dp, double exponent) {
+  PIOLA_EXPECTS(h > 0 && dp > 0);
   return dimension == 2 ? number_of<2>(h, dp, exponent) : number_of<3>(h, dp, exponent);
 }
 
@@ -132,6 +134,7 @@ double opened_energy(System const& system, std::vector<std::uint8_t> const& lost
 std::vector<KernelContactPair> contact_pairs(int dimension, ContactRule const& rule,
                                              std::vector<BodyConstants> const& bodies,
                                              std::vector<std::array<double, 3>> const& mean_velocity) {
+  PIOLA_EXPECTS(mean_velocity.size() == bodies.size());
   std::vector<KernelContactPair> pairs(bodies.size() * bodies.size());
   for (std::size_t a = 0; a < bodies.size(); ++a)
     for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -158,6 +161,7 @@ std::vector<KernelContactPair> contact_pairs(int dimension, ContactRule const& r
 }
 
 bool mark_surface_contact(Assembly const& assembly, std::vector<KernelContactPair>& pairs) {
+  PIOLA_EXPECTS(pairs.size() == assembly.particles.bodies.size() * assembly.particles.bodies.size());
   auto const& bodies = assembly.particles.bodies;
   bool any = false;
   for (std::size_t a = 0; a < bodies.size(); ++a)
@@ -170,6 +174,7 @@ bool mark_surface_contact(Assembly const& assembly, std::vector<KernelContactPai
 
 void exclude_tied_pairs(std::vector<contact::TieRule> const& ties, std::size_t bodies,
                         std::vector<KernelContactPair>& pairs) {
+  PIOLA_EXPECTS(pairs.size() == bodies * bodies);
   constexpr double out_of_sight = 1e-9;
   for (contact::TieRule const& tie : ties)
     for (std::size_t const pair : {tie.bodies[0] * bodies + tie.bodies[1], tie.bodies[1] * bodies + tie.bodies[0]}) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Total-Lagrangian particles that become Eulerian, or fail.
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/adaptle/contact.hpp"
 #include "piola/formulations/adaptle/finish_pass.hpp"
@@ -86,6 +87,7 @@ class Marks {
 /// recursively). A conversion counts as a guard conversion only if no criterion asked for it. Flags are combined over
 /// ranks.
 void Particles::convert(double dt) {
+  PIOLA_EXPECTS(dt >= 0);
   Marks marks(system_.particles);
   for (std::size_t k = 0; k < body_.size(); ++k)
     for (Index i = own_[k].first; i < own_[k].last; ++i) {

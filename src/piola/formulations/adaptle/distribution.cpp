@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Distribution over ranks: each rank owns a contiguous range of slots per body, which repartitioning may change; it
 // stores fields of these and of their reference ghosts. Kernel type and deletion flag of all particles are replicated.
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/domain/slot_collectives.hpp"
 #include "piola/formulations/adaptle/particles.hpp"
@@ -12,6 +13,7 @@ namespace piola::adaptle {
 
 /// Builds the data of the local particles.
 void Particles::take(std::vector<Partition> cuts) {
+  PIOLA_EXPECTS(cuts.size() == own_.size());
   std::fill(rigid_action_.begin(), rigid_action_.end(), 0);  // a part may have fewer blocks than the one before
   owned_ = ParticlePartition(cuts);
   for (std::size_t b = 0; b < own_.size(); ++b) own_[b] = cuts[b].own();
@@ -78,6 +80,7 @@ Resultants Particles::actions() const {
 /// Migrates particles from the old partition to the new one. Sends the fields of a checkpoint from the old owner to the
 /// new one, except the replicated fields phi and active.
 void Particles::migrate(std::vector<Partition> const& from, std::vector<Partition> const& to) {
+  PIOLA_EXPECTS(from.size() == to.size());
   std::vector<Field*> fields;
   each_saved(fields_, [&](Field& field) {
     if (&field != &fields_.phi && &field != &fields_.active) fields.push_back(&field);
@@ -127,6 +130,7 @@ double Particles::contact_mass(std::int64_t id) const {
 
 void Particles::read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                             std::span<std::array<double, 3>> v) const {
+  PIOLA_EXPECTS(x.size() == ids.size() && v.size() == ids.size());
   std::vector<double> motion(6 * ids.size(), 0);
   for (std::size_t k = 0; k < ids.size(); ++k) {
     auto const slot = static_cast<Index>(ids[k]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/lattice_stencils.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/adaptle/records.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
@@ -52,6 +53,7 @@ double lattice_square(Body const& body, std::array<int, 3> const& from, std::arr
 LatticeStencils::LatticeStencils(ParticleSet const& set, BodyInput const& body, std::span<Offset const> begin,
                                  std::span<Index const> neighbour, int lanes, bool rounded, int components)
     : first_(static_cast<Index>(body.geometry.first)) {
+  PIOLA_EXPECTS(lanes >= 1 && components >= 1);
   if (!body.geometry.regular || body.geometry.off_lattice) return;
   find_offsets(body.geometry, set.dimension, body.h, rounded);
   Fill fill = find_patterns(set, body, begin, neighbour, lanes);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/law_factors.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
 #include <algorithm>
 
@@ -12,6 +13,7 @@ std::size_t place(Index i) { return static_cast<std::size_t>(i); }
 
 void PointFactors::build(std::vector<BodyConstants> const& bodies, std::vector<BodyOptions> const& options,
                          std::vector<Range> const& own, ParticleSet const& set, double time) {
+  PIOLA_EXPECTS(bodies.size() == options.size() && bodies.size() == own.size());
   *this = {};
   set_ = &set;
   own_ = own;

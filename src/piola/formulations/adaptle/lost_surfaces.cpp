@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/lost_surfaces.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
 
 namespace piola::adaptle {
 
 void LostSurfaces::lose(ParticleSet const& set, Index slot, double reach) {
+  PIOLA_EXPECTS(reach >= 0);
   std::size_t const id = at(slot);
   int const b = set.body[id];
   Body const& body = set.bodies[at(b)];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/particles.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/formulations/adaptle/contact.hpp"
@@ -63,6 +64,7 @@ std::vector<double> EnergyTotals::state() const {
 }
 
 void EnergyTotals::restore(std::span<double const> values) {
+  PIOLA_EXPECTS(values.size() == state().size());
   std::size_t k = 0;
   std::apply([&](auto&... value) { ((value = values[k++]), ...); }, listed(*this));
 }
@@ -76,6 +78,7 @@ Particles::Particles(Assembly const& assembly, Options const& options, Backend c
       shapes_(assembly.rigid_shapes),
       balance_(assembly.repartition),
       set_(assembly.particles) {
+  PIOLA_EXPECTS(options.bodies.size() == assembly.particles.bodies.size());
   system_.dimension = assembly.particles.dimension;
   system_.settings = options_.settings;
   system_.shared = comm::is_parallel();
@@ -393,6 +396,7 @@ double Particles::next_end_time() const {
 }
 
 void Particles::step(double time, double dt) {
+  PIOLA_EXPECTS(dt > 0);
   if (exchanges_ && balance_.due()) rebalance();
   prepare_supports(time + dt);
   prepare_loads(time + 0.5 * dt);
@@ -505,6 +509,7 @@ void Particles::evaluate(double dt) {
 }
 
 void Particles::damp(double factor) {
+  PIOLA_EXPECTS(std::abs(factor) <= 1);
   double const before = kinetic_energy();
   for (Range const& own : own_)
     for (Index i = own.first; i < own.last; ++i)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/reference_lists.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/adaptle/records.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
@@ -30,6 +31,7 @@ bool invert_moments(double const* A, double* K) {
 
 void ReferenceLists::build(ParticleSet const& set, std::vector<BodyConstants> const& bodies,
                            std::vector<Range> const& own, Fields& fields, Settings const& settings, int lanes) {
+  PIOLA_EXPECTS(bodies.size() == own.size() && lanes >= 1);
   *this = {};
   particles_ = static_cast<Index>(set.size());
   own_ = own;

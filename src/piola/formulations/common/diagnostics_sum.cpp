@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/common/diagnostics_sum.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/formulations/common/lattice_lines.hpp"
@@ -9,7 +10,10 @@
 
 namespace piola {
 
-void DiagnosticsSum::add_strain_energy(double energy) { bodies_.back().strain_energy += energy; }
+void DiagnosticsSum::add_strain_energy(double energy) {
+  PIOLA_EXPECTS(!bodies_.empty());
+  bodies_.back().strain_energy += energy;
+}
 
 void DiagnosticsSum::add_motion(std::array<double, 3> const& x, std::array<double, 3> const& v, double mass) {
   double of_particle[7]{};
@@ -33,6 +37,7 @@ void DiagnosticsSum::add_state(double jacobian, double pressure, double tributar
 }
 
 void DiagnosticsSum::add_oscillation(ParticleSet const& set, Body const& body, std::vector<double> const& p) {
+  PIOLA_EXPECTS(static_cast<std::int64_t>(p.size()) >= body.last - body.first);
   LatticeLines lines({}, body.lattice);  // particles are counted from the body's first
   auto const place = [&](std::int64_t k) { return set.lattice_index[static_cast<std::size_t>(body.first + k)]; };
   for (std::int64_t k = 0; k < body.last - body.first; ++k) lines[place(k)] = static_cast<Index>(k);

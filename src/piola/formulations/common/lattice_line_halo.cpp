@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/common/lattice_line_halo.hpp"
+#include "piola/base/contracts.hpp"
 #include <algorithm>
 
 namespace piola {
@@ -10,6 +11,7 @@ LatticeLines::At const& LatticeLineHalo::at(Index slot) const {
 
 LatticeLineHalo::LatticeLineHalo(ParticleSet const& set, Body const& body, Slots slots, Range own, Partition const& cut)
     : set_(&set), slots_(slots), own_(own) {
+  PIOLA_EXPECTS(own.first <= own.last && own.last <= cut.whole().last);
   LatticeLines::At first{}, size{};  // bounding box of local particles and their neighbours
   for (std::size_t c = 0; c < 3; ++c) {
     int lowest = body.lattice[c], highest = -1;

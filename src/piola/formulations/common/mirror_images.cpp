@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/common/mirror_images.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/particles/body_extents.hpp"
 #include <algorithm>
@@ -12,6 +13,7 @@ namespace piola {
 MirrorImages::MirrorImages(Assembly const& assembly, std::size_t body, SlotOrder const& order,
                            std::array<double, 3> const& reach)
     : D_(assembly.particles.dimension), first_(order.slots()) {
+  PIOLA_EXPECTS(body < assembly.particles.bodies.size());
   mirrored_ = std::any_of(assembly.mirrors.begin(), assembly.mirrors.end(),
                           [body](MirrorPlane const& plane) { return plane.body == body; });
   if (!mirrored_) return;
@@ -146,6 +148,7 @@ void MirrorImages::add_shifts(std::vector<Kind> const& values, std::vector<doubl
 }
 
 void MirrorImages::keep(std::vector<Index> const& images) {
+  PIOLA_EXPECTS(images.size() <= particles_.source.size());
   std::size_t to = 0;
   for (Index const image : images) {
     auto const from = static_cast<std::size_t>(image);
@@ -161,6 +164,7 @@ void MirrorImages::keep(std::vector<Index> const& images) {
 }
 
 Copies const* MirrorImages::copies(int values, std::function<bool(int value, int axis)> const& turns) {
+  PIOLA_EXPECTS(values >= 1 && turns != nullptr);
   if (empty()) return nullptr;
   auto table = std::make_unique<Table>();
   for (auto const& map : maps_)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/common/mirrored_assembly.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/particles/body_extents.hpp"
 #include <algorithm>
 #include <cmath>
@@ -124,6 +125,8 @@ contact::Surface surface_of(Assembly const& whole, std::size_t b, std::vector<Im
 }  // namespace
 
 MirroredAssembly::MirroredAssembly(Assembly const& whole) : assembly(whole) {
+  PIOLA_EXPECTS(whole.mirrors.empty() || whole.surfaces.size() == whole.particles.bodies.size());
+  PIOLA_EXPECTS(whole.initial_displacement.empty() || whole.initial_displacement.size() == whole.particles.X.size());
   if (whole.mirrors.empty()) return;
   ParticleSet const& particles = whole.particles;
   double depth = 0;

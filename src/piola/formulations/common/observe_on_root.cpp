@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/common/observe_on_root.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include <utility>
 
@@ -49,6 +50,7 @@ class ReplicatedFormulation final : public Formulation {
 }  // namespace
 
 std::unique_ptr<Formulation> observe_on_root(std::unique_ptr<Formulation> formulation) {
+  PIOLA_EXPECTS(formulation != nullptr);
   if (!comm::is_parallel()) return formulation;
   return std::make_unique<ReplicatedFormulation>(std::move(formulation));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/exec/device_loops.hpp"
 #include "piola/exec/field.hpp"
@@ -52,6 +53,7 @@ class SlotsById {
 template <class Bodies>
 void add_coupled_particles(Bodies const& bodies, SlotsById const& slots, std::span<std::int64_t const> ids,
                            std::span<std::array<double, 3>> x, std::span<std::array<double, 3>> v) {
+  PIOLA_EXPECTS(x.size() == ids.size() && v.size() == ids.size());
   std::vector<Range> own;
   for (auto const& body : bodies) own.push_back(body->own());
   slots.parallel_visit(ids, [&](std::size_t k, std::size_t body, Index slot) {
@@ -72,11 +74,14 @@ void add_coupled_particles(Bodies const& bodies, SlotsById const& slots, std::sp
 template <class Bodies, class F>
 void read_masses_of(Bodies const& bodies, SlotsById const& slots, std::span<std::int64_t const> ids,
                     std::span<double> m, F const& mass) {
+  PIOLA_EXPECTS(m.size() == ids.size());
   slots.visit(ids, [&](std::size_t k, std::size_t body, Index slot) { m[k] = mass(*bodies[body], slot); });
 }
 template <class Bodies>
 void add_velocities_of(Bodies const& bodies, int dimension, SlotsById const& slots, std::span<std::int64_t const> ids,
                        std::span<std::array<double, 3> const> change) {
+  PIOLA_EXPECTS(change.size() == ids.size());
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
   slots.visit(ids, [&](std::size_t k, std::size_t body, Index slot) {
     for (int c = 0; c < dimension; ++c)
       value_at(bodies[body]->state().v, slot, c) += change[k][static_cast<std::size_t>(c)];

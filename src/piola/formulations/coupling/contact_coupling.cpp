@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/coupling/contact_coupling.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/formulations/common/surface_loss.hpp"
 #include "piola/math/array_conversion.hpp"
@@ -100,6 +101,7 @@ void ContactCoupling::fold_images() {
 }
 
 void ContactCoupling::look(Formulations const& formulations) {
+  PIOLA_EXPECTS(formulations.size() == shares_.size());
   read_masses(formulations);
   read_state(formulations);
   system_.set_masses({mass_.begin(), mass_.begin() + static_cast<std::ptrdiff_t>(system_.ids().size())});
@@ -237,6 +239,7 @@ double ContactCoupling::contact_time_step() const {
 }
 
 void ContactCoupling::begin(Formulations const& formulations, double time, double dt) {
+  PIOLA_EXPECTS(formulations.size() == shares_.size() && dt > 0);
   actions_.begin(dt);
   std::fill(pair_impulses_.begin(), pair_impulses_.end(), contact::SurfaceContactSystem::ForceMoment{});
   ties_.begin();
@@ -247,6 +250,7 @@ void ContactCoupling::begin(Formulations const& formulations, double time, doubl
 }
 
 void ContactCoupling::finish(Formulations const& formulations, double time, double dt) {
+  PIOLA_EXPECTS(formulations.size() == shares_.size() && dt > 0);
   read_state(formulations);
   drop_lost_surfaces(formulations);
   ties_.evaluate(system_, x_);

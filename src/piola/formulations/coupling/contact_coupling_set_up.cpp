@@ -144,6 +144,8 @@ ContactCoupling::ContactCoupling(Assembly const& whole, MirroredAssembly const& 
       motion_(motion_of(whole)),
       actions_(whole.supports, whole.loads, whole.rigid_shapes),
       ties_(continued.assembly, system_) {
+  PIOLA_EXPECTS(whole.materials.size() == whole.particles.bodies.size());
+  PIOLA_EXPECTS(dimension_ >= 1 && dimension_ <= 3);
   for (Body const& body : whole.particles.bodies) names_.push_back(body.name);
   motion_.place(system_.rigids());
   for (std::size_t b = 0; b < continued.mirrors.size(); ++b) system_.set_mirrors(b, continued.mirrors[b]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/coupling/coupled_formulations.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/common/set_up_checks.hpp"
@@ -355,6 +356,7 @@ std::vector<std::int64_t> CoupledFormulations::owned_of(std::size_t part) const 
 
 std::unique_ptr<Formulation> make_coupled_formulations(Assembly const& whole, std::vector<FormulationGroup> parts,
                                                        std::vector<std::unique_ptr<Formulation>> formulations) {
+  PIOLA_EXPECTS(!parts.empty() && parts.size() == formulations.size());
   return std::make_unique<CoupledFormulations>(whole, std::move(parts), std::move(formulations));
 }
 

@@ -139,6 +139,7 @@ void fill_part(Assembly const& whole, FormulationGroup& part) {
 }  // namespace
 
 std::int64_t FormulationGroup::id_in_whole(std::int64_t id) const {
+  PIOLA_EXPECTS(id >= 0);
   for (Block const& block : blocks)
     if (id >= block.here && id < block.here + block.count) return id - block.here + block.there;
   return id;

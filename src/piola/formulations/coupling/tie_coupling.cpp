@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/coupling/tie_coupling.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/mechanics/contact/state_vector.hpp"
 #include <algorithm>
 #include <utility>
@@ -39,6 +40,7 @@ void TieCoupling::exclude_pair(contact::SurfaceContactSystem& system, std::size_
 
 void TieCoupling::look(contact::SurfaceContactSystem& system, std::vector<Vec<3>> const& x,
                        std::vector<double> const& masses) {
+  PIOLA_EXPECTS(x.size() == masses.size());
   if (!any()) return;
   std::vector<double> inverse;
   inverse.reserve(masses.size());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/boundary_conditions.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/materials/laws.hpp"
 #include <limits>
@@ -29,6 +30,7 @@ Boundary::Boundary(Assembly const& assembly, std::size_t body, SlotOrder const& 
       D_(assembly.particles.dimension),
       cloud_(std::move(cloud)),
       driven_(D_, connected(assembly.supports, mirrors), assembly.loads, cloud_.has_value()) {
+  PIOLA_EXPECTS(body < assembly.particles.bodies.size());
   with_law(assembly.materials[body], [&](auto const& law) { rho0_ = law.rho0; });
   std::vector<Index> slot_of(static_cast<std::size_t>(body_.last - body_.first));
   for (Index i = 0; i < order.particles; ++i)
@@ -122,6 +124,7 @@ void Boundary::attach(BodyState& state) {
 }
 
 void Boundary::begin_step(BodyState& state, double time, double dt) {
+  PIOLA_EXPECTS(dt >= 0);
   bool const changed = driven_.begin_step(state.x, time, dt);
   if (cloud_ && changed) multipliers_.emplace(driven_.held(), *cloud_);
   if (multipliers_) multipliers_->reset_impulses();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/multipliers.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/deferred_global_sum.hpp"
 #include "piola/domain/slot_collectives.hpp"
 #include "piola/math/solve.hpp"
@@ -64,6 +65,7 @@ std::vector<NearParticle> interpolation(Cloud const& cloud, CellGrid const& grid
 }  // namespace
 
 Multipliers::Multipliers(std::span<PrescribedDirection const> held, Cloud const& cloud) : D_(cloud.dimension) {
+  PIOLA_EXPECTS(cloud.dimension >= 1 && cloud.dimension <= 3);
   find_weights(held, cloud);
   find_owners(held);
   matrix_ = constraint_matrix(rows_, weights_, slots_.size(), [&](std::size_t a) { return volume_[a]; });

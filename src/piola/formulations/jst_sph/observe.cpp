@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/observe.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/common/output_fields.hpp"
 #include "piola/formulations/common/sample_local.hpp"
@@ -160,6 +161,7 @@ void sample_local_slots(JstBody const& body, int body_number, std::string_view f
 }
 
 void sample(JstBody const& body, int body_number, std::string_view field, std::span<double> values) {
+  PIOLA_EXPECTS(body_number >= 0);
   gather_field_on_root(body, find_output_field(field, offered), values,
                        [&](auto const& f) { observe_each(body, body_number, field, f); });
 }

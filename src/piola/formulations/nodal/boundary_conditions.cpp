@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/boundary_conditions.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include <algorithm>
 
@@ -24,6 +25,7 @@ Boundary::Boundary(Assembly const& assembly, std::size_t body, BodyInput const& 
       driven_(D_, assembly.supports, assembly.loads, false),
       surface_(D_, assembly.supports, of_body.held, of_body.mass, positions(assembly, of_body)),
       own_(of_body.own) {
+  PIOLA_EXPECTS(body < assembly.particles.bodies.size());
   std::vector<Index> slot_of(static_cast<std::size_t>(body_.last - body_.first));
   for (Index i = 0; i < of_body.order.particles; ++i)
     slot_of[static_cast<std::size_t>(of_body.order.id[static_cast<std::size_t>(i)] - body_.first)] = i;
@@ -94,6 +96,7 @@ void Boundary::attach(BodyState& state) {
 }
 
 void Boundary::begin_step(BodyState& state, double time, double dt) {
+  PIOLA_EXPECTS(dt >= 0);
   bool const changed = driven_.begin_step(state.x, time, dt);
   surface_.begin_step(state.x, driven_.held(), changed, time, dt);
   state.surface = surface_.empty() ? nullptr : &surface_;

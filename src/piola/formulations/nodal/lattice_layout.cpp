@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/lattice_layout.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/formulations/nodal/quadratic.hpp"
 #include <algorithm>
 #include <numeric>
@@ -62,6 +63,7 @@ std::optional<LatticeShape> lattice_shape(ParticleSet const& set, Body const& bo
 }
 
 LatticeLayout::LatticeLayout(LatticeShape const& shape, Index slots, int lanes) {
+  PIOLA_EXPECTS(slots >= 0 && lanes >= 1);
   table_.row = shape.count[0];
   table_.plane = static_cast<std::ptrdiff_t>(shape.count[0]) * shape.count[1];
   constexpr std::ptrdiff_t reach = 2, widest_lanes = 8;

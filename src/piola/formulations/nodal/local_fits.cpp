@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/local_fits.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/math/solve.hpp"
@@ -72,6 +73,7 @@ std::vector<Index> ghost_neighbours(Pairs const& pairs, Range own) {
 }
 
 Pairs find_pairs(Points const& X, std::span<double const> reach, IndexSet const& rows) {
+  PIOLA_EXPECTS(reach.size() == X.size());
   Pairs pairs;
   pairs.begin.push_back(0);
   if (X.empty()) return pairs;
@@ -107,6 +109,7 @@ Pairs find_pairs(Points const& X, std::span<double const> reach, IndexSet const&
 }
 
 Pairs lattice_pairs(LatticeShape const& shape, double reach, IndexSet const& rows) {
+  PIOLA_EXPECTS(reach > 0);
   std::vector<std::array<int, 3>> offsets;  // in the order of slots
   int const steps = static_cast<int>(reach);
   for (int k = -steps; k <= steps; ++k)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/masses.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/domain/halo_plan.hpp"
 #include "piola/domain/sum_over_slots.hpp"
@@ -308,6 +309,7 @@ void match_moments(Points const& X, LazyZeroArray<ScaledCell> const& cells, Rang
 
 template <int D>
 LazyZeroArray<double> exact_masses(Points const& X, LazyZeroArray<ScaledCell> const& cells, MassInput const& of) {
+  PIOLA_EXPECTS(cells.size() == X.size());
   auto const x = transfer_masses<D>(X, cells, of);
   LazyZeroArray<double> mass = MassLimiter(x, cells, of)();
   Range const own = of.shared ? of.shared->own() : Range{0, static_cast<Index>(X.size())};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/observe.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/common/output_fields.hpp"
 #include "piola/formulations/common/sample_local.hpp"
@@ -174,6 +175,7 @@ LazyZeroArray<double> smooth_pressure(NodalBody const& body, std::string_view fi
 }  // namespace
 
 void sample(NodalBody const& body, int body_number, std::string_view field, std::span<double> values) {
+  PIOLA_EXPECTS(body_number >= 0);
   OutputField const& found = find_output_field(field, offered);
   LazyZeroArray<double> const smooth = smooth_pressure(body, field);
   gather_field_on_root(body, found, values, [&](auto const& f) { observe_each(body, body_number, smooth, f); });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/options.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
 #include <array>
@@ -85,6 +86,7 @@ void check_solid(MaterialParameters const& material, bool stress_free, Problems&
 
 Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters> const& materials, int dimension,
                      double cfl) {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
   Problems problems;
   bool const stress_free = is_stress_free(word_of(spec, choices, "assumption"), dimension, false, problems);
   bool solids = false;

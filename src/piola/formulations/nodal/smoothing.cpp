@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/smoothing.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/exec/host_loops.hpp"
 #include <algorithm>
@@ -28,6 +29,7 @@ Smoothing::Smoothing(Reference const& reference, int dimension, Range own, HaloP
       V_(reference.V),
       range_(own),
       halo_(halo) {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
   find_weights(reference, static_cast<std::size_t>(dimension));
   balance();
 }

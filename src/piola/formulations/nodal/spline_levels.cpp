@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/spline_levels.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/exec/host_loops.hpp"
 #include <algorithm>
@@ -96,6 +97,7 @@ SplineLevels<D>::SplineLevels(Points const& X, std::optional<DistributedSlots> c
 
 template <int D>
 void SplineLevels<D>::add_level(double spacing) {
+  PIOLA_EXPECTS(spacing > 0);
   Level level;
   level.spacing = spacing;
   std::array<std::vector<std::array<double, 4>>, 3> e;

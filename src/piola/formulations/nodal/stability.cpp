@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/stability.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/domain/sum_over_slots.hpp"
 #include "piola/exec/host_loops.hpp"
@@ -280,6 +281,7 @@ void StabilityMonitor::measure(int cycles, bool at_start) {
 }
 
 void StabilityMonitor::update(double dt, int halvings) {
+  PIOLA_EXPECTS(dt > 0 && halvings >= 0);
   if (is_given()) return;
   ++steps_;
   steps_since_measurement_ += dt * frequency() / (2 * calm_share);
@@ -314,6 +316,7 @@ double StabilityMonitor::step() const {
 double StabilityMonitor::calm_step() const { return step_at(calm_share); }
 
 double StabilityMonitor::step_at(double fraction) const {
+  PIOLA_EXPECTS(fraction > 0);
   if (is_given()) return body_.options().cfl * body_.state().constants.unit_step;
   // Viscous forces of the last step reduce the limit: sqrt(1 + xi^2) - xi, with xi their fraction of critical damping.
   auto const& s = body_.state();

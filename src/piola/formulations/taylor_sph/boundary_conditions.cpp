@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/taylor_sph/boundary_conditions.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/exec/reproducible_sum.hpp"
 #include "piola/mechanics/prescribed.hpp"
@@ -75,6 +76,7 @@ std::vector<Point> free_directions(std::vector<Point> held, int D) {
 
 Boundary::Boundary(Assembly const& assembly, std::size_t body)
     : D_(assembly.particles.dimension), first_(assembly.particles.bodies[body].first) {
+  PIOLA_EXPECTS(body < assembly.particles.bodies.size());
   auto const& set = assembly.particles;
   Body const& own = set.bodies[body];
   auto const n = static_cast<std::size_t>(own.last - own.first);
@@ -297,6 +299,7 @@ void Boundary::load(Index particle, double time, double dt, Stress const& stress
 
 void Boundary::prepare(double time, double dt, Points const& x, std::function<Point(Index)> const& velocity,
                        std::function<Stress(Index)> const& stress_now) {
+  PIOLA_EXPECTS(dt >= 0);
   turn(x);
   for (std::size_t k = 0; k < particles_.size(); ++k) {
     hold(particles_[k], time, dt, velocity(particles_[k]), items_[k]);

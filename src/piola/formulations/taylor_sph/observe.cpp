@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/taylor_sph/observe.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/formulations/common/output_fields.hpp"
 #include "piola/materials/laws.hpp"
 #include <array>
@@ -46,6 +47,7 @@ void observe(TaylorBody const& body, ParticleSet const& set, DiagnosticsSum& o) 
 std::vector<FieldInfo> output_field_names() { return field_infos(offered); }
 
 void sample(TaylorBody const& body, int body_number, std::string_view field, std::span<double> values) {
+  PIOLA_EXPECTS(body_number >= 0);
   OutputField const& found = find_output_field(field, offered);
   std::vector<double> const strain_drift =
       field == "StrainDrift" ? body.strain_drift() : std::vector<double>(static_cast<std::size_t>(body.particles()));

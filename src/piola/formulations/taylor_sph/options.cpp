@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/taylor_sph/options.hpp"
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/kernels/list.hpp"
 #include <array>
@@ -94,6 +95,7 @@ FormulationInfo info() {
 }
 
 Options read_options(FormulationSpec const& spec, int dimension, double cfl, bool whole_lattice) {
+  PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
   Problems problems;
   Options o;
   o.moving = word(spec, "configuration") == "updated";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What of a body follows its motion: neighbour lists, smoothing lengths, cells; and its snapshots.
+#include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/formulations/taylor_sph/body.hpp"
 #include "piola/math/solve.hpp"
@@ -209,6 +210,7 @@ void TaylorBody::note_distances(Points const& x) {
 
 /// Impulse of tractions and accelerations, and its moment, with the places of half time.
 void TaylorBody::add_impulses(double time, double dt, std::vector<Push> const* tractions) {
+  PIOLA_EXPECTS(dt >= 0);
   std::vector<ImpulseSum> of_load(of_load_.size());
   auto const add = [&](std::size_t load, std::array<double, 3> const& x, std::array<double, 3> const& impulse) {
     of_load[load].add(x, impulse);
