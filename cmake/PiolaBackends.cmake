@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Backends: the loops over particles, src/piola/formulations/*/backend.cpp, are compiled once per instruction set and chosen from
-# when the program starts. Everything they define lives in an inline namespace named PIOLA_BACKEND.
+# Backends: the loops over particles, src/piola/formulations/*/backend.cpp, are compiled once per instruction set. The
+# program chooses one of them when it starts. Everything they define lives in an inline namespace named PIOLA_BACKEND.
 
 include(PiolaNativeBackend)
 if(DEFINED PIOLA_MACHINES)
@@ -47,7 +47,7 @@ else()
     if(NOT backend IN_LIST _known)
       list(JOIN _known ", " _names)
       message(FATAL_ERROR
-        "PIOLA_INSTRUCTION_SETS: unknown instruction set '${backend}' (known here: ${_names}, or all, quick, native, two)")
+        "PIOLA_INSTRUCTION_SETS: unknown '${backend}' (known here: ${_names}, or all, quick, native, two)")
     endif()
   endforeach()
 endif()

@@ -18,7 +18,8 @@ target_link_libraries(piola_app PRIVATE piola piola_warnings piola_host piola_ha
 # The same program for ranks: the same objects, with MPI where the library has one rank. The linker takes nothing out of
 # the library that is there already, so domain/communicator_serial.cpp stays out, as long as it is an object of its own.
 if(TARGET Piola::mpi AND PIOLA_MPI_BESIDE AND NOT PIOLA_MPI)
-  add_executable(piola_mpi_app $<TARGET_OBJECTS:piola_app> "${PROJECT_SOURCE_DIR}/src/piola/domain/communicator_mpi.cpp")
+  add_executable(piola_mpi_app
+    $<TARGET_OBJECTS:piola_app> "${PROJECT_SOURCE_DIR}/src/piola/domain/communicator_mpi.cpp")
   set_target_properties(piola_mpi_app PROPERTIES OUTPUT_NAME piola-mpi)
   target_link_libraries(piola_mpi_app PRIVATE piola piola_warnings piola_host piola_hardened Piola::mpi)
 elseif(PIOLA_MPI_BESIDE AND NOT PIOLA_MPI)
