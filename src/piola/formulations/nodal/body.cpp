@@ -3,7 +3,6 @@
 #include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/domain/first_failure.hpp"
-#include "piola/domain/sum_over_slots.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/formulations/nodal/mirror_passes.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
@@ -348,48 +347,10 @@ void NodalBody::agree_on_step(double change) {
   largest_change_ = said.change;
 }
 
-double NodalBody::kinetic_energy() const {
-  return sum_over_slots(shared(), own(), [&](Index i) { return kinetic_energy_of(i); });
-}
-
-double NodalBody::kinetic_energy_of(Index slot) const {
-  auto const v = this->v(slot);
-  return 0.5 * mass(slot) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
-
-double NodalBody::strain_energy() const {
-  return sum_over_slots(shared(), own(), [&](Index i) { return volume(i) * value(state_.cell, i, 0); });
-}
-
-double NodalBody::viscous_loss() const {
-  if (!fields_.with_viscosity) return 0;
-  int const loss = Fields::viscous_values(D_) - 1;
-  return sum_over_slots(shared(), own(), [&](Index i) { return volume(i) * value(state_.viscous, i, loss); });
-}
-
-double NodalBody::mean_of_points(Index slot, int number) const {
-  int const points = fields_.with_solids ? Fields::points(D_) : 0;
-  double sum = 0;
-  for (int q = 0; q < points; ++q) sum += value(state_.history, slot, HistoryLayout::point(q, D_) + number) / points;
-  return sum;
-}
-
 void NodalBody::damp(double factor) {
   double const before = kinetic_energy();
   boundary_->damp(state_, factor);
   damping_loss_ += before - kinetic_energy();
-}
-
-Mat<3> NodalBody::F(Index slot) const {
-  Mat<3> r = identity<3>();
-  for (int c = 0; c < D_ * D_; ++c) r(c / D_, c % D_) = value(state_.F, slot, c);
-  for (int c = D_; c < 3; ++c) r(c, c) = value(state_.cell, slot, 3);
-  return r;
-}
-
-Smoothing const& NodalBody::smoothing() const {
-  if (!smoothing_) smoothing_.emplace(reference_, D_, own(), halo_.get());
-  return *smoothing_;
 }
 
 std::size_t NodalBody::bytes() const {

@@ -2,6 +2,7 @@
 #include "piola/formulations/nodal/observe.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
+#include "piola/domain/sum_over_slots.hpp"
 #include "piola/formulations/common/output_fields.hpp"
 #include "piola/formulations/common/sample_local.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
@@ -185,6 +186,44 @@ void sample_local_slots(NodalBody const& body, int body_number, std::string_view
   LazyZeroArray<double> const smooth = smooth_pressure(body, field);
   piola::sample_local_slots(body, find_output_field(field, offered), values,
                             [&](auto const& f) { observe_each(body, body_number, smooth, f); });
+}
+
+double NodalBody::kinetic_energy() const {
+  return sum_over_slots(shared(), own(), [&](Index i) { return kinetic_energy_of(i); });
+}
+
+double NodalBody::kinetic_energy_of(Index slot) const {
+  auto const v = this->v(slot);
+  return 0.5 * mass(slot) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+double NodalBody::strain_energy() const {
+  return sum_over_slots(shared(), own(), [&](Index i) { return volume(i) * value(state_.cell, i, 0); });
+}
+
+double NodalBody::viscous_loss() const {
+  if (!fields_.with_viscosity) return 0;
+  int const loss = Fields::viscous_values(D_) - 1;
+  return sum_over_slots(shared(), own(), [&](Index i) { return volume(i) * value(state_.viscous, i, loss); });
+}
+
+double NodalBody::mean_of_points(Index slot, int number) const {
+  int const points = fields_.with_solids ? Fields::points(D_) : 0;
+  double sum = 0;
+  for (int q = 0; q < points; ++q) sum += value(state_.history, slot, HistoryLayout::point(q, D_) + number) / points;
+  return sum;
+}
+
+Mat<3> NodalBody::F(Index slot) const {
+  Mat<3> r = identity<3>();
+  for (int c = 0; c < D_ * D_; ++c) r(c / D_, c % D_) = value(state_.F, slot, c);
+  for (int c = D_; c < 3; ++c) r(c, c) = value(state_.cell, slot, 3);
+  return r;
+}
+
+Smoothing const& NodalBody::smoothing() const {
+  if (!smoothing_) smoothing_.emplace(reference_, D_, own(), halo_.get());
+  return *smoothing_;
 }
 
 }  // namespace piola::nodal
