@@ -19,14 +19,14 @@ struct ReadPoints {
   Words problems;
 };
 
-/// A file as another program writes it: without our seal.
+/// A file as another program writes it: without the checksum trailer of Piola.
 ReadPoints read_foreign(std::function<void(hdf5::Writer&)> const& fill, CloudOptions const& options = {}) {
   TemporaryFolder const folder;
   auto const path = folder.path() / "points.h5";
   hdf5::Writer file(path);
   fill(file);
   file.finish();
-  std::filesystem::resize_file(path, std::filesystem::file_size(path) - checksum_trailer_of({}).size());
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - checksum_trailer_of({}, 0).size());
   ReadPoints read;
   read.cloud = read_cloud(path.string(), options, read.problems);
   for (std::string& problem : read.problems) problem.erase(0, path.string().size() + 2);

@@ -54,9 +54,7 @@ Wave rate(Wave const& u, double eps4) {
                                                                     zero,        in(ones),
                                                                     in(zeros),   in(zeros),
                                                                     out(rate),   in(zeros),
-                                                                    out(unused), in(zeros),
-                                                                    in(zeros),   in(zeros),
-                                                                    in(zeros)};
+                                                                    out(unused), in(zeros)};
   double total[ForceTotals<1>::size]{};
   for (Index i = 0; i < n; ++i) forces(i, total);
   return rate;

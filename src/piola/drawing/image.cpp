@@ -73,13 +73,11 @@ Image::Image(int columns, int rows, Colour background) : width(columns), height(
 }
 
 Colour Image::at(int x, int y) const {
-  PIOLA_EXPECTS(x >= 0 && x < width && y >= 0 && y < height);
   auto const* p = &rgb[offset(*this, x, y)];
   return {p[0], p[1], p[2]};
 }
 
 void Image::set(int x, int y, Colour colour) {
-  PIOLA_EXPECTS(x >= 0 && x < width && y >= 0 && y < height);
   std::copy(colour.begin(), colour.end(), &rgb[offset(*this, x, y)]);
 }
 

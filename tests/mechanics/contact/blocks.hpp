@@ -38,19 +38,20 @@ struct Blocks {
     surfaces.push_back(contact_surface(shape, set, set.bodies.back()));
     surfaces.back().modulus = set.bodies.size() == 1 ? 2e6 : 5e6;
   }
-  System::Setting setting(std::size_t rigids, FrictionLaw const& friction = {}) const {
+  SurfaceContactSystem::Setting setting(std::size_t rigids, FrictionLaw const& friction = {}) const {
     std::size_t const n = surfaces.size();
-    System::Setting s(n, std::vector<System::PairSetting>(n + rigids, {true, 0.5, friction}));
+    SurfaceContactSystem::Setting s(n,
+                                    std::vector<SurfaceContactSystem::PairSetting>(n + rigids, {true, 0.5, friction}));
     for (std::size_t b = 0; b < n; ++b) s[b][b].is_active = false;
     return s;
   }
-  System system(std::vector<RigidSurface> rigids = {}, FrictionLaw const& friction = {}) const {
+  SurfaceContactSystem system(std::vector<RigidSurface> rigids = {}, FrictionLaw const& friction = {}) const {
     auto const s = setting(rigids.size(), friction);
     return {set, surfaces, std::move(rigids), s};
   }
 };
 
-inline std::vector<Vec<3>> places(System const& system, ParticleSet const& set) {
+inline std::vector<Vec<3>> places(SurfaceContactSystem const& system, ParticleSet const& set) {
   std::vector<Vec<3>> x;
   for (auto const id : system.ids()) {
     auto const& X = set.X[static_cast<std::size_t>(id)];
@@ -87,7 +88,7 @@ inline void deal_out(Surface& surface, ParticleSet const& set, double middle, st
 }
 
 /// Expects non-zero contact forces whose resultant and moment vanish.
-inline void expect_balance(System const& system, std::vector<Vec<3>> const& x) {
+inline void expect_balance(SurfaceContactSystem const& system, std::vector<Vec<3>> const& x) {
   Vec<3> force, moment;
   double size = 0;
   for (std::size_t k = 0; k < x.size(); ++k) {
@@ -104,7 +105,7 @@ inline void expect_balance(System const& system, std::vector<Vec<3>> const& x) {
 }
 
 /// Expects forces to be minus the gradient of the energy at x, by central differences for every third loaded point.
-inline void expect_slopes(System& system, std::vector<Vec<3>> const& x, int dimension) {
+inline void expect_slopes(SurfaceContactSystem& system, std::vector<Vec<3>> const& x, int dimension) {
   system.evaluate(x, 1e-3);
   auto const forces = system.forces();
   auto const pushed = system.loaded_indices();

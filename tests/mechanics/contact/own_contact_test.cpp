@@ -25,9 +25,11 @@ struct Ring {
     surfaces.push_back(contact_surface(shape, set, set.bodies[0]));
     surfaces[0].modulus = 2e6;
   }
-  System system(FrictionLaw const& friction = {}) const { return {set, surfaces, {}, {{{true, 0.5, friction}}}}; }
+  SurfaceContactSystem system(FrictionLaw const& friction = {}) const {
+    return {set, surfaces, {}, {{{true, 0.5, friction}}}};
+  }
   /// The walls bulged in until the inner faces overlap by `depth` in the middle.
-  std::vector<Vec<3>> closed(System const& system, double depth) const {
+  std::vector<Vec<3>> closed(SurfaceContactSystem const& system, double depth) const {
     auto x = places(system, set);
     for (Vec<3>& y : x) y[1] -= std::copysign(8 + 0.5 * depth, y[1]) * std::exp(-y[0] * y[0] / (3.5 * 3.5));
     return x;
@@ -38,14 +40,14 @@ class OwnContact : public ::testing::TestWithParam<int> {};
 
 TEST_P(OwnContact, ABodyAtRestDoesNotPushItself) {
   Ring const ring(GetParam());
-  System system = ring.system();
+  SurfaceContactSystem system = ring.system();
   system.evaluate(places(system, ring.set), 1e-3);
   EXPECT_EQ(system.totals().touched, 0);
   EXPECT_EQ(system.totals().energy, 0);
   Blocks const blocks(GetParam(), -1);
-  System::Setting setting = blocks.setting(0);
+  SurfaceContactSystem::Setting setting = blocks.setting(0);
   for (std::size_t b = 0; b < setting.size(); ++b) setting[b][b].is_active = true;
-  System corners(blocks.set, blocks.surfaces, {}, setting);
+  SurfaceContactSystem corners(blocks.set, blocks.surfaces, {}, setting);
   auto x = places(corners, blocks.set);
   // Neither its edges nor its faces do when it is squeezed to half its height.
   for (Vec<3>& y : x) y[GetParam() - 1] *= 0.5;
@@ -55,7 +57,7 @@ TEST_P(OwnContact, ABodyAtRestDoesNotPushItself) {
 
 TEST_P(OwnContact, InnerFacesThatMeetPush) {
   Ring const ring(GetParam());
-  System system = ring.system();
+  SurfaceContactSystem system = ring.system();
   auto x = ring.closed(system, 0.2);
   system.evaluate(x, 1e-3);
   EXPECT_GT(system.totals().touched, 3);
@@ -76,7 +78,7 @@ TEST_P(OwnContact, InnerFacesThatMeetPush) {
 
 TEST_P(OwnContact, RubsToo) {
   Ring const ring(GetParam());
-  System system = ring.system({.kinetic = 0.3});
+  SurfaceContactSystem system = ring.system({.kinetic = 0.3});
   auto x = ring.closed(system, 0.2);
   system.start(x);
   for (std::size_t k = 0; k < x.size(); ++k)
@@ -129,7 +131,7 @@ TEST(FrictionLaw, FallsFromRestToSlidingAndHasALimit) {
 /// Pulls the upper block sideways by `way` [m] per step. Returns the ratio of friction force to normal force: the
 /// largest one, and the last one.
 std::array<double, 2> pull(Blocks const& blocks, FrictionLaw const& law, double way, double dt) {
-  System system = blocks.system({}, law);
+  SurfaceContactSystem system = blocks.system({}, law);
   auto x = places(system, blocks.set);
   system.start(x);
   double most = 0, last = 0;
@@ -155,7 +157,7 @@ TEST(FrictionLaw, ShearStressHasALimit) {
   Blocks const blocks(2, 0.05, 0.7, 1);
   double const normal = pull(blocks, {.kinetic = 0.3}, 0.001, 1)[1];
   ASSERT_NEAR(normal, 0.3, 0.01);
-  System system = blocks.system();
+  SurfaceContactSystem system = blocks.system();
   system.evaluate(places(system, blocks.set), 1);
   double const pressure = system.between(1, 0).force[1] / 2.8;
   EXPECT_NEAR(pull(blocks, {.kinetic = 0.3, .shear_limit = 0.1 * pressure}, 0.001, 1)[1], 0.1, 0.02);
@@ -163,7 +165,7 @@ TEST(FrictionLaw, ShearStressHasALimit) {
 
 TEST(AtParticles, TellPressureGapWayAndHeat) {
   Blocks const blocks(2, 0.05, 0.7, 1);
-  System system = blocks.system({}, {.kinetic = 0.3});
+  SurfaceContactSystem system = blocks.system({}, {.kinetic = 0.3});
   auto x = places(system, blocks.set);
   system.start(x);
   double work = 0;
@@ -176,7 +178,7 @@ TEST(AtParticles, TellPressureGapWayAndHeat) {
   double heat = 0, deepest = 0, most = 0, pushed = 0;
   PairRule const rule = pair_rule(0.5, 2e6, 1, 5e6, 0.7);
   double const layer_pressure = -2 * layer(-0.05, rule.stiffness, rule.length).slope;
-  for (System::ParticleContactState const& p : system.at_particles()) {
+  for (SurfaceContactSystem::ParticleContactState const& p : system.at_particles()) {
     auto const& X = blocks.set.X[static_cast<std::size_t>(p.id)];
     bool const upper = p.id >= blocks.set.bodies[1].first, face = upper ? X[1] < 3.4 : X[1] > 2.4;
     if (!face) {

@@ -38,13 +38,14 @@ struct Lying {
     free.angular_velocity = {Expression(D == 3 ? "0.3" : "0"), Expression(D == 3 ? "0.1" : "0"), Expression("0.5")};
     shapes.push_back(free);
   }
-  System system(double friction, bool is_active = true) const {
+  SurfaceContactSystem system(double friction, bool is_active = true) const {
     return {set, surfaces, {surface_of(shapes[0], dimension)}, touching(friction, is_active)};
   }
-  static System::Setting touching(double friction, bool is_active = true) {
-    return {{System::PairSetting{}, System::PairSetting{is_active, 0.5, {.kinetic = friction}}}};
+  static SurfaceContactSystem::Setting touching(double friction, bool is_active = true) {
+    return {{SurfaceContactSystem::PairSetting{},
+             SurfaceContactSystem::PairSetting{is_active, 0.5, {.kinetic = friction}}}};
   }
-  std::vector<Vec<3>> places(System const& system) const {
+  std::vector<Vec<3>> places(SurfaceContactSystem const& system) const {
     std::vector<Vec<3>> x;
     for (auto const id : system.ids()) {
       auto const& X = set.X[static_cast<std::size_t>(id)];
@@ -63,10 +64,10 @@ class FreeShapes : public ::testing::TestWithParam<Scene> {};
 
 TEST_P(FreeShapes, AreSeenByBodiesThatMeetThem) {
   Lying const lying(GetParam().dimension, GetParam().kind);
-  System system = lying.system(0);
+  SurfaceContactSystem system = lying.system(0);
   system.evaluate(lying.places(system), 1e-3);
   EXPECT_GT(system.totals().touched, 0);
-  System apart = lying.system(0, false);
+  SurfaceContactSystem apart = lying.system(0, false);
   apart.evaluate(lying.places(apart), 1e-3);
   EXPECT_EQ(apart.totals().touched, 0);
 }
@@ -74,7 +75,7 @@ TEST_P(FreeShapes, AreSeenByBodiesThatMeetThem) {
 TEST_P(FreeShapes, ForceAndMomentAreTheSlopesOfTheEnergy) {
   auto const [D, kind] = GetParam();
   Lying const lying(D, kind);
-  System system = lying.system(0);
+  SurfaceContactSystem system = lying.system(0);
   RigidMotion motion(lying.shapes, D, {1, 1, {}});
   motion.place(system.rigids());
   auto const x = lying.places(system);
@@ -119,7 +120,7 @@ TEST_P(FreeShapes, ForceAndMomentAreTheSlopesOfTheEnergy) {
 TEST_P(FreeShapes, MomentaOfBodyAndShapeAreKeptWithFriction) {
   auto const [D, kind] = GetParam();
   Lying const lying(D, kind);
-  System system = lying.system(0.4);
+  SurfaceContactSystem system = lying.system(0.4);
   RigidMotion motion(lying.shapes, D, {1, 1, {0.4}});
   motion.place(system.rigids());
   auto const x = lying.places(system);
@@ -150,7 +151,7 @@ TEST_P(FreeShapes, MomentaOfBodyAndShapeAreKeptWithFriction) {
 TEST_P(FreeShapes, FrictionIsBlindToCommonMotion) {
   auto const [D, kind] = GetParam();
   Lying const lying(D, kind);
-  System system = lying.system(0.4);
+  SurfaceContactSystem system = lying.system(0.4);
   auto x = lying.places(system);
   system.start(x);
   for (std::size_t k = 0; k < x.size(); ++k) x[k][0] += 0.01;
@@ -177,7 +178,7 @@ TEST_P(FreeShapes, ListsSeeTurns) {
   lying.shapes[0].half_lengths = {0.9, 0.2, 3};
   lying.shapes[0].radius = 0.2;
   lying.shapes[0].centre = {2.55, 3.85, D == 3 ? 2.5 : 0};
-  System system = lying.system(0);
+  SurfaceContactSystem system = lying.system(0);
   auto const x = lying.places(system);
   system.start(x);
   EXPECT_EQ(system.totals().touched, 0);
@@ -225,7 +226,7 @@ TEST(RigidMotion, GravityAndWhatHoldsAShapeDoWork) {
   fill(box, "far", set);
   std::vector<Surface> surfaces{contact_surface(box, set, set.bodies[0])};
   shape.centre = {50, 0, 0};
-  System system(set, surfaces, {surface_of(shape, 3)}, Lying::touching(0));
+  SurfaceContactSystem system(set, surfaces, {surface_of(shape, 3)}, Lying::touching(0));
   RigidMotion motion({shape}, 3, {1, 1, {}});
   motion.place(system.rigids());
   motion.start(system);

@@ -36,7 +36,7 @@ struct Ripple {
 Ripple slide(Bodies const& bodies, int dimension, double stretch = 1) {
   constexpr int steps = 40;
   int const up = dimension - 1;
-  System system = bodies.system();
+  SurfaceContactSystem system = bodies.system();
   auto x = places(system, bodies.set);
   auto const first_above = bodies.set.bodies[1].first;
   double least = 1e300, most = 0, sum = 0, lateral = 0;

@@ -106,7 +106,7 @@ TEST(ShapePoints, OfALargeFloorCostWhatIsNear) {
 struct Pressed {
   int D;
   Blocks blocks;
-  System system;
+  SurfaceContactSystem system;
   std::vector<Vec<3>> x;
 
   Pressed(int dimension, RigidSurface tool, FrictionLaw const& friction = {})
@@ -227,7 +227,7 @@ INSTANTIATE_TEST_SUITE_P(Dimensions, OfNarrowShapes, ::testing::Values(2, 3));
 /// A block whose lower face is at 0, before a plate of `thickness` below it; the block moves down to `depth`.
 struct OnPlate {
   Blocks blocks;
-  System system;
+  SurfaceContactSystem system;
   std::vector<Vec<3>> x;
   int D;
 

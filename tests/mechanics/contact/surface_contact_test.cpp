@@ -67,7 +67,7 @@ class InDimensions : public ::testing::TestWithParam<int> {};
 
 TEST_P(InDimensions, BlocksThatTouchAreNotPushed) {
   Blocks const blocks(GetParam(), 0);
-  System system = blocks.system();
+  SurfaceContactSystem system = blocks.system();
   system.evaluate(places(system, blocks.set), 1e-3);
   EXPECT_NEAR(system.totals().energy, 0, 1e-20);
   EXPECT_LT(system.totals().deepest, 1e-12);
@@ -77,7 +77,7 @@ TEST_P(InDimensions, FlatFacesHaveThePressureOfTheLayer) {
   int const D = GetParam();
   double const depth = 0.05;
   Blocks const blocks(D, depth, 0.7, 1);  // the upper one lies wholly on the lower one
-  System system = blocks.system();
+  SurfaceContactSystem system = blocks.system();
   system.evaluate(places(system, blocks.set), 1e-3);
   // Each point of the upper face is pushed by half of the layer; those of the lower one, too, where they are under it.
   PairRule const rule = pair_rule(0.5, 2e6, 1, 5e6, 0.7);
@@ -91,7 +91,7 @@ TEST_P(InDimensions, FlatFacesHaveThePressureOfTheLayer) {
 TEST_P(InDimensions, ForcesAreTheSlopesOfTheEnergy) {
   int const D = GetParam();
   Blocks const blocks(D, 0.2);
-  System system = blocks.system();
+  SurfaceContactSystem system = blocks.system();
   auto x = places(system, blocks.set);
   distort(x, D, 0.3);
   expect_slopes(system, x, D);
@@ -100,7 +100,7 @@ TEST_P(InDimensions, ForcesAreTheSlopesOfTheEnergy) {
 TEST_P(InDimensions, MomentaAreKept) {
   int const D = GetParam();
   Blocks const blocks(D, 0.2);
-  System system = blocks.system();
+  SurfaceContactSystem system = blocks.system();
   auto x = places(system, blocks.set);
   distort(x, D, 0.3);
   system.evaluate(x, 1e-3);
@@ -111,7 +111,7 @@ TEST_P(InDimensions, MomentaAreKept) {
 TEST_P(InDimensions, PointsThatGoThroughABodyAreCounted) {
   int const D = GetParam();
   Blocks const blocks(D, 0, 0.7, 1);
-  System system = blocks.system();
+  SurfaceContactSystem system = blocks.system();
   auto x = places(system, blocks.set);
   system.start(x);
   for (double depth = 0; depth < 3; depth += 0.1) {
@@ -125,7 +125,7 @@ TEST_P(InDimensions, PointsThatGoThroughABodyAreCounted) {
     EXPECT_EQ(passed.of + passed.through, 1U);
     EXPECT_GE(passed.points, 2);
   }
-  System resumed = blocks.system();
+  SurfaceContactSystem resumed = blocks.system();
   resumed.restore(x, system.state());
   EXPECT_EQ(resumed.passed().size(), 2U);
 }
@@ -138,7 +138,7 @@ TEST_P(InDimensions, RigidShapesTakeTheReaction) {
   plane.axis = {{0, 0, 0}};
   plane.axis[D - 1] = 1;
   plane.centre[D - 1] = 0.1;  // 0.1 above the lower face of block 0
-  System system = blocks.system({plane});
+  SurfaceContactSystem system = blocks.system({plane});
   auto const x = places(system, blocks.set);
   system.evaluate(x, 1e-3);
   Vec<3> force;
@@ -155,7 +155,7 @@ TEST_P(InDimensions, ForcesDoNotDependOnWhenListsWereMadeOrOnThreads) {
   std::vector<Vec<3>> first;
   for (int const threads : piola::testing::thread_counts) {
     piola::testing::Threads const shared(threads);
-    System fresh = blocks.system(), old = blocks.system();
+    SurfaceContactSystem fresh = blocks.system(), old = blocks.system();
     auto x = places(fresh, blocks.set);
     old.evaluate(x, 1e-3);
     for (Vec<3>& y : x) y[0] += 0.11;  // less than the lists are good for
@@ -171,7 +171,7 @@ TEST_P(InDimensions, ForcesDoNotDependOnWhenListsWereMadeOrOnThreads) {
 }
 
 /// All results of contact that a run reads.
-std::vector<double> told_by(System const& system, std::size_t rigids) {
+std::vector<double> told_by(SurfaceContactSystem const& system, std::size_t rigids) {
   Totals const& t = system.totals();
   std::vector<double> all{t.energy,        t.deepest,       t.frequency2,
                           t.spring_energy, t.friction_work, static_cast<double>(t.touched)};
@@ -209,7 +209,7 @@ std::vector<double> rub_at_both_ends(int D, std::uint32_t seed) {
   floor.centre[D - 1] = 0.04;
   floor.inverse_mass = 0.3;
   floor.inverse_inertia = identity<3>();
-  System system = plates.system({floor}, {.kinetic = 0.3});
+  SurfaceContactSystem system = plates.system({floor}, {.kinetic = 0.3});
   auto x = places(system, plates.set);
   for (std::size_t k = 0; k < x.size(); ++k) {
     double const to_middle = x[k][0] / middle - 1, lift = system.ids()[k] < plates.set.bodies[1].first ? 1.5 : 5;
@@ -232,7 +232,7 @@ TEST_P(InDimensions, NoSumDependsOnTheOrderOfPoints) {
 TEST_P(InDimensions, NearBodiesThatCloseShortenTheStep) {
   int const D = GetParam();
   Blocks const blocks(D, -0.5);
-  System system = blocks.system();
+  SurfaceContactSystem system = blocks.system();
   auto const x = places(system, blocks.set);
   system.evaluate(x, 1e-3);
   std::vector<Vec<3>> v(x.size());
@@ -248,7 +248,7 @@ TEST_P(InDimensions, FrictionSticksThenSlides) {
   int const D = GetParam();
   Blocks const blocks(D, 0.05, 0.7, 1);
   constexpr double mu = 0.3;
-  System system = blocks.system({}, {.kinetic = mu});
+  SurfaceContactSystem system = blocks.system({}, {.kinetic = mu});
   auto x = places(system, blocks.set);
   system.start(x);
   double const normal = system.between(1, 0).force[D - 1];
@@ -277,7 +277,7 @@ TEST_P(InDimensions, FrictionSticksThenSlides) {
 TEST_P(InDimensions, FrictionKeepsMomentaAndIsBlindToRigidMotion) {
   int const D = GetParam();
   Blocks const blocks(D, 0.2);
-  System system = blocks.system({}, {.kinetic = 0.5});
+  SurfaceContactSystem system = blocks.system({}, {.kinetic = 0.5});
   auto x = places(system, blocks.set);
   system.start(x);
   distort(x, D, 0.1);
@@ -302,7 +302,8 @@ TEST_P(InDimensions, RestoredStateGoesOnBitForBit) {
   plane.axis = {};
   plane.axis[D - 1] = 1;
   plane.centre[D - 1] = 0.05;
-  System whole = blocks.system({plane}, {.kinetic = 0.3}), resumed = blocks.system({plane}, {.kinetic = 0.3});
+  SurfaceContactSystem whole = blocks.system({plane}, {.kinetic = 0.3}),
+                       resumed = blocks.system({plane}, {.kinetic = 0.3});
   auto x = places(whole, blocks.set);
   auto const move = [&] {
     for (std::size_t k = 0; k < x.size(); ++k) x[k][0] += 0.003 * static_cast<double>(k % 5);
