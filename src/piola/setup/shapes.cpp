@@ -110,7 +110,7 @@ void fill_lattice(ShapeSpec const& shape, ParticleSet& set, Body& body) {
   body.spacing = births.lattice().spacing;
   body.lattice = births.lattice().count;
   body.regular = !(shape.jitter > 0) && !shape.random;
-  auto const runs = births.runs(births.everywhere());
+  auto const runs = births.runs();
   std::size_t const first = set.X.size();
   std::size_t const size =
       runs.empty() ? first : first + static_cast<std::size_t>(runs.back().id + runs.back().last - runs.back().first);
