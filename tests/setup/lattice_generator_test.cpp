@@ -2,7 +2,6 @@
 #include "piola/setup/lattice_generator.hpp"
 #include "exec/thread_count.hpp"
 #include <gtest/gtest.h>
-#include <random>
 
 namespace piola {
 namespace {
@@ -51,69 +50,42 @@ std::vector<ShapeSpec> shapes() {
   return all;
 }
 
-/// The lattice cut into two at random places, these again, and so on.
-void cut(LatticeBox const& box, int depth, std::mt19937& random, std::vector<LatticeBox>& parts) {
-  auto const c = static_cast<std::size_t>(random() % 3);
-  int const n = box.last[c] - box.first[c];
-  if (depth == 0) {
-    parts.push_back(box);
-    return;
-  }
-  LatticeBox low = box, high = box;
-  low.last[c] = high.first[c] = box.first[c] + static_cast<int>(random() % static_cast<unsigned>(n + 1));
-  cut(low, depth - 1, random, parts);
-  cut(high, depth - 1, random, parts);
-}
-
-TEST(LatticeGenerator, OfAllPartsAreThoseOfTheWholeBitForBit) {
-  std::mt19937 random(3);
+TEST(LatticeGenerator, GivesTheParticlesOfABodyOnAnyNumberOfThreads) {
   for (ShapeSpec const& shape : shapes())
-    for (int trial = 0; trial < 4; ++trial) {
-      testing::Threads const threads(1 + trial % 3);
+    for (int const count : {1, 2, 3}) {
+      testing::Threads const threads(count);
       ParticleSet set;
       fill(shape, "body", set);
       LatticeGenerator const births(shape);
-      EXPECT_EQ(births.size(), set.size());
-      std::vector<LatticeBox> parts;
-      cut(births.everywhere(), 5, random, parts);
-      std::vector<int> seen(set.X.size(), 0);
-      for (LatticeBox const& part : parts) {
-        GeneratedParticles const born = births.in(part);
-        EXPECT_EQ(static_cast<std::int64_t>(born.id.size()), births.count(part));
-        for (std::size_t k = 0; k < born.id.size(); ++k) {
-          auto const id = static_cast<std::size_t>(born.id[k]);
-          ASSERT_LT(id, set.X.size());
-          ++seen[id];
-          EXPECT_EQ(born.X[k], set.X[id]);
-          EXPECT_EQ(born.lattice_index[k], set.lattice_index[id]);
-          EXPECT_EQ(born.volume[k], set.volume[id]);
-          EXPECT_EQ(born.kernel_volume, set.kernel_volume[id]);
-        }
+      ASSERT_EQ(births.size(), set.size());
+      std::array<int, 3> before{-1, 0, 0};  // ids follow the lattice, the first direction fastest
+      for (std::size_t id = 0; id < set.X.size(); ++id) {
+        auto const& [i, j, k] = set.lattice_index[id];
+        EXPECT_LT((std::array{before[2], before[1], before[0]}), (std::array{k, j, i}));
+        before = {i, j, k};
+        GeneratedParticle const born = births.at(before);
+        EXPECT_EQ(born.X, set.X[id]);
+        EXPECT_EQ(born.volume, set.volume[id]);
+        EXPECT_EQ(births.kernel_volume(), set.kernel_volume[id]);
       }
-      EXPECT_EQ(seen, std::vector<int>(set.X.size(), 1));
     }
 }
 
-/// A lattice of 8e18 places cannot be made, but a corner of it can.
-TEST(LatticeGenerator, CountBeyondThirtyTwoBits) {
+/// A lattice of 8e18 places cannot be made, but its particles can, one by one.
+TEST(LatticeGenerator, CountsBeyondThirtyTwoBits) {
   constexpr int n = 2'000'000;
   ShapeSpec shape;
   shape.max = {1, 1, 1};
   shape.particles = {n, n, n};
   shape.jitter = 0.2;
   LatticeGenerator const births(shape);
-  std::int64_t const all = std::int64_t{n} * n * n;
-  EXPECT_EQ(births.size(), all);
-  GeneratedParticles const last = births.in({{n - 2, n - 1, n - 1}, {n, n, n}});
-  EXPECT_EQ(last.id, (std::vector<std::int64_t>{all - 2, all - 1}));
-  EXPECT_EQ(last.X.back(), (std::array<double, 3>{1, 1, 1}));
-  GeneratedParticles const inner = births.in({{n - 3, n - 2, n - 2}, {n - 2, n - 1, n - 1}});
-  ASSERT_EQ(inner.id.size(), 1U);
-  EXPECT_EQ(inner.id[0], (std::int64_t{n - 2} * n + n - 2) * n + n - 3);
+  EXPECT_EQ(births.size(), std::int64_t{n} * n * n);
+  EXPECT_EQ(births.at({n - 1, n - 1, n - 1}).X, (std::array<double, 3>{1, 1, 1}));
+  std::array<int, 3> const inner{n - 3, n - 2, n - 2};
   for (std::size_t c = 0; c < 3; ++c) {
-    double const spacing = 1.0 / (n - 1), place = spacing * inner.lattice_index[0][c];
-    EXPECT_NE(inner.X[0][c], place);
-    EXPECT_NEAR(inner.X[0][c], place, 0.2 * spacing);
+    double const spacing = 1.0 / (n - 1), place = spacing * inner[c], X = births.at(inner).X[c];
+    EXPECT_NE(X, place);
+    EXPECT_NEAR(X, place, 0.2 * spacing);
   }
 }
 

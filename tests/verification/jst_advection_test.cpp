@@ -47,14 +47,22 @@ Wave rate(Wave const& u, double eps4) {
   Constants k{};
   k.rho0 = k.kernel_volume = k.h_min = 1;
   k.eps4 = eps4;
-  SumForces<1, Biharmonic::literal, 1, AdjacentLoader> const forces{{},          {in(second, 2), zero, zero},
-                                                                    k,           in(flux),
-                                                                    in(w),       one,
-                                                                    one,         zero,
-                                                                    zero,        in(ones),
-                                                                    in(zeros),   in(zeros),
-                                                                    out(rate),   in(zeros),
-                                                                    out(unused), in(zeros)};
+  SumForces<1, Biharmonic::literal, 1, AdjacentLoader> const forces{.loader = {},
+                                                                    .body = {in(second, 2), zero, zero},
+                                                                    .k = k,
+                                                                    .A = in(flux),
+                                                                    .w = in(w),
+                                                                    .V = one,
+                                                                    .weight = one,
+                                                                    .G = zero,
+                                                                    .diagonal = zero,
+                                                                    .wave_speed = in(ones),
+                                                                    .x = in(zeros),
+                                                                    .v = in(zeros),
+                                                                    .rate = out(rate),
+                                                                    .rate_in = in(zeros),
+                                                                    .J_rate = out(unused),
+                                                                    .J_rate_in = in(zeros)};
   double total[ForceTotals<1>::size]{};
   for (Index i = 0; i < n; ++i) forces(i, total);
   return rate;

@@ -81,25 +81,6 @@ void Image::set(int x, int y, Colour colour) {
   std::copy(colour.begin(), colour.end(), &rgb[offset(*this, x, y)]);
 }
 
-Image reduce(Image const& fine, int factor) {
-  PIOLA_EXPECTS(factor >= 1);
-  Image out(fine.width / factor, fine.height / factor, {0, 0, 0});
-  int const samples = factor * factor;
-  for (int y = 0; y < out.height; ++y) {
-    for (int x = 0; x < out.width; ++x) {
-      std::array<int, 3> sum{};
-      for (int k = 0; k < samples; ++k) {
-        auto const pixel = fine.at(x * factor + k % factor, y * factor + k / factor);
-        for (std::size_t c = 0; c < 3; ++c) sum[c] += pixel[c];
-      }
-      Colour mean{};
-      for (std::size_t c = 0; c < 3; ++c) mean[c] = static_cast<std::uint8_t>((sum[c] + samples / 2) / samples);
-      out.set(x, y, mean);
-    }
-  }
-  return out;
-}
-
 Image without_background(Image const& on_black, Image const& on_white) {
   PIOLA_EXPECTS(on_black.width == on_white.width && on_black.height == on_white.height);
   Image out = on_black;

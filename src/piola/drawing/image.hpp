@@ -26,9 +26,6 @@ struct Image {
   void set(int x, int y, Colour colour);
 };
 
-/// The mean of factor x factor pixels for each pixel of the result.
-Image reduce(Image const& fine, int factor);
-
 /// Computes the image with opacity from its renderings on black and on white.
 Image without_background(Image const& on_black, Image const& on_white);
 

@@ -79,40 +79,40 @@ std::vector<std::pair<std::size_t, double>> weights_at(std::array<double, 3> con
 
 }  // namespace
 
-FieldSampler::FieldSampler(std::vector<SampleRequest> conversion_requests, ParticleSet const& particles)
+FieldSampler::FieldSampler(std::vector<SampleRequest> sample_requests, ParticleSet const& particles)
     : particles_(particles) {
-  for (SampleRequest& conversion_request : conversion_requests)
-    pending_.push_back({.conversion_request = std::move(conversion_request)});
+  for (SampleRequest& sample_request : sample_requests)
+    pending_.push_back({.sample_request = std::move(sample_request)});
 }
 
 void FieldSampler::observe(Formulation const& formulation, TimeState const& moment) {
   constexpr double ahead = 3;  // steps; a step is rarely three times as long as the one before
   auto const soon = [&](Pending const& pending) {
-    return moment.step == 0 || moment.time + ahead * moment.dt >= pending.conversion_request.time;
+    return moment.step == 0 || moment.time + ahead * moment.dt >= pending.sample_request.time;
   };
   if (std::none_of(pending_.begin(), pending_.end(), soon)) return;
   FieldCache cache(formulation, particles_);
   std::erase_if(pending_, [&](Pending& pending) {
-    return soon(pending) && (!cache.knows(pending.conversion_request.field) || take(pending, cache, moment));
+    return soon(pending) && (!cache.knows(pending.sample_request.field) || take(pending, cache, moment));
   });
 }
 
 /// Whether the sample is complete.
 bool FieldSampler::take(Pending& pending, FieldCache& cache, TimeState const& moment) {
-  auto const now = cache.values(pending.conversion_request.field);
-  bool const early = moment.time < pending.conversion_request.time;
+  auto const now = cache.values(pending.sample_request.field);
+  bool const early = moment.time < pending.sample_request.time;
   std::vector<double> values(now.begin(), now.end());
   if (!early && !pending.values.empty() && moment.time > pending.before) {
-    double const share = (pending.conversion_request.time - pending.before) / (moment.time - pending.before);
+    double const share = (pending.sample_request.time - pending.before) / (moment.time - pending.before);
     for (std::size_t k = 0; k < values.size(); ++k) values[k] = share * values[k] + (1 - share) * pending.values[k];
   }
   pending.before = moment.time;
   pending.values = std::move(values);
   if (early) return false;
-  FieldSample sample{.field = pending.conversion_request.field,
-                     .time = pending.conversion_request.time,
+  FieldSample sample{.field = pending.sample_request.field,
+                     .time = pending.sample_request.time,
                      .dimension = particles_.dimension,
-                     .components = static_cast<std::size_t>(cache.info(pending.conversion_request.field).components),
+                     .components = static_cast<std::size_t>(cache.info(pending.sample_request.field).components),
                      .values = std::move(pending.values),
                      .X = particles_.X,
                      .volume = particles_.volume,

@@ -31,14 +31,14 @@ class FieldSampler : public Observer {
     double time = 0;  ///< s
     bool operator==(SampleRequest const&) const = default;
   };
-  FieldSampler(std::vector<SampleRequest> conversion_requests, ParticleSet const& particles);
+  FieldSampler(std::vector<SampleRequest> sample_requests, ParticleSet const& particles);
   void observe(Formulation const& formulation, TimeState const& moment) override;
   /// Samples so far. Requests for a missing field, or for a time that the run did not reach, give none.
   std::vector<FieldSample> const& samples() const { return samples_; }
 
  private:
   struct Pending {
-    SampleRequest conversion_request;
+    SampleRequest sample_request;
     double before = 0;                ///< s, of `values`
     std::vector<double> values = {};  ///< shortly before the time; empty: not yet sampled
   };

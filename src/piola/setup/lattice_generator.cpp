@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace piola {
 namespace {
@@ -107,7 +108,6 @@ Rows row_within(ShapeSpec const& shape, Lattice const& lattice, double radius2, 
 struct BodyRow {
   Rows all, hole;
   std::int64_t count() const { return all.end - all.begin - (hole.end - hole.begin); }
-  bool contains(std::int64_t i) const { return i < hole.begin || i >= hole.end; }
 };
 
 BodyRow inside_row(ShapeSpec const& shape, Lattice const& lattice, int j, int k) {
@@ -143,7 +143,7 @@ Vec3 position(ShapeSpec const& shape, Lattice const& lattice, Index3 const& inde
 }
 
 /// The jitter of a particle depends only on the seed, its lattice position (x fastest) and the axis. It is thus the
-/// same for any choice of boxes and ranks.
+/// same on all ranks.
 void shake(ShapeSpec const& shape, Lattice const& lattice, Index3 const& index, Vec3& X) {
   if (share_of_cell(shape, lattice, index) < 1) return;  // on a face
   std::uint64_t place = 0;
@@ -156,96 +156,46 @@ void shake(ShapeSpec const& shape, Lattice const& lattice, Index3 const& index, 
   }
 }
 
-BodyRow part_of_row(BodyRow row, std::int64_t first, std::int64_t last) {
-  for (Rows* const run : {&row.all, &row.hole}) {
-    run->begin = std::clamp(run->begin, first, last);
-    run->end = std::clamp(run->end, run->begin, last);
-  }
-  return row;
-}
-
 }  // namespace
 
 LatticeGenerator::LatticeGenerator(ShapeSpec const& shape) : shape_(shape), lattice_(lattice_of(shape)) {
   PIOLA_EXPECTS(shape.kind != ShapeSpec::Kind::solid && shape.kind != ShapeSpec::Kind::points);
   for (int d = 0; d < shape.dimension; ++d) cell_ *= lattice_.spacing[static_cast<std::size_t>(d)];
+}
+
+std::int64_t LatticeGenerator::size() const {
   auto const [n, across, planes] = lattice_.count;
-  if (shape.kind == ShapeSpec::Kind::box) {
-    in_plane_ = static_cast<std::int64_t>(n) * across;
-    return;
-  }
-  plane_begin_.assign(static_cast<std::size_t>(planes) + 1, 0);
+  if (shape_.kind == ShapeSpec::Kind::box) return std::int64_t{n} * across * planes;
+  std::vector<std::int64_t> in_plane(static_cast<std::size_t>(planes), 0);
   double const rows = static_cast<double>(planes) * across;
   auto const shared = static_cast<Index>(std::min(rows, double{std::numeric_limits<Index>::max()}));
   exec_host::parallel_for_chunks(planes, shared, [&](Index k) {
-    std::int64_t sum = 0;
-    for (int j = 0; j < lattice_.count[1]; ++j) sum += inside_row(shape_, lattice_, j, k).count();
-    plane_begin_[static_cast<std::size_t>(k) + 1] = sum;
+    for (int j = 0; j < lattice_.count[1]; ++j)
+      in_plane[static_cast<std::size_t>(k)] += inside_row(shape_, lattice_, j, k).count();
   });
-  for (std::size_t k = 1; k < plane_begin_.size(); ++k) plane_begin_[k] += plane_begin_[k - 1];
+  return std::accumulate(in_plane.begin(), in_plane.end(), std::int64_t{0});
 }
 
-std::int64_t LatticeGenerator::first_of_plane(int k) const {
-  return plane_begin_.empty() ? k * in_plane_ : plane_begin_[static_cast<std::size_t>(k)];
-}
-
-std::vector<LatticeGenerator::Run> LatticeGenerator::runs(LatticeBox const& box) const {
-  PIOLA_EXPECTS(box.first[0] >= 0 && box.first[1] >= 0 && box.first[2] >= 0);
-  PIOLA_EXPECTS(box.last[0] <= lattice_.count[0] && box.last[1] <= lattice_.count[1] &&
-                box.last[2] <= lattice_.count[2]);
+std::vector<LatticeGenerator::Run> LatticeGenerator::runs() const {
   std::vector<Run> all;
-  for (int k = box.first[2]; k < box.last[2]; ++k) {
-    std::int64_t id = first_of_plane(k);
-    for (int j = 0; j < box.last[1]; ++j) {
-      BodyRow const row = inside_row(shape_, lattice_, j, k);
-      if (j >= box.first[1]) {
-        BodyRow const part = part_of_row(row, box.first[0], box.last[0]);
-        bool const holed = row.hole.end > row.hole.begin;
-        // Before the hole, or all; then behind it.
-        Rows const before{part.all.begin, holed ? std::min(part.all.end, part.hole.begin) : part.all.end};
-        if (before.end > before.begin)
-          all.push_back({id + before.begin - row.all.begin, before.begin, before.end, j, k});
-        Rows const behind{holed ? std::max(part.all.begin, part.hole.end) : part.all.end, part.all.end};
-        std::int64_t const missing = row.hole.end - row.hole.begin;
-        if (behind.end > behind.begin)
-          all.push_back({id + behind.begin - row.all.begin - missing, behind.begin, behind.end, j, k});
+  std::int64_t id = 0;
+  for (int k = 0; k < lattice_.count[2]; ++k)
+    for (int j = 0; j < lattice_.count[1]; ++j) {
+      auto const [row, hole] = inside_row(shape_, lattice_, j, k);
+      bool const holed = hole.end > hole.begin;
+      for (Rows const& part :
+           {Rows{row.begin, holed ? hole.begin : row.end}, Rows{holed ? hole.end : row.end, row.end}}) {
+        if (part.end <= part.begin) continue;
+        all.push_back({id, part.begin, part.end, j, k});
+        id += part.end - part.begin;
       }
-      id += row.count();
     }
-  }
   return all;
 }
 
 GeneratedParticle LatticeGenerator::at(std::array<int, 3> const& place) const {
   GeneratedParticle born{position(shape_, lattice_, place), cell_ * share_of_cell(shape_, lattice_, place)};
   if (shape_.jitter > 0) shake(shape_, lattice_, place, born.X);
-  return born;
-}
-
-std::int64_t LatticeGenerator::count(LatticeBox const& box) const {
-  std::int64_t sum = 0;
-  for (Run const& run : runs(box)) sum += run.last - run.first;
-  return sum;
-}
-
-GeneratedParticles LatticeGenerator::in(LatticeBox const& box) const {
-  auto const runs = this->runs(box);
-  std::vector<std::size_t> begin{0};
-  for (Run const& run : runs) begin.push_back(begin.back() + static_cast<std::size_t>(run.last - run.first));
-  GeneratedParticles born;
-  born.kernel_volume = cell_;
-  born.id.resize(begin.back());
-  born.X.resize(begin.back());
-  born.lattice_index.resize(begin.back());
-  born.volume.resize(begin.back());
-  each_run(runs, [&](std::size_t run, std::int64_t i) {
-    std::size_t const to = begin[run] + static_cast<std::size_t>(i - runs[run].first);
-    born.lattice_index[to] = {static_cast<int>(i), runs[run].j, runs[run].k};
-    born.id[to] = runs[run].id + (i - runs[run].first);
-    GeneratedParticle const birth = at(born.lattice_index[to]);
-    born.X[to] = birth.X;
-    born.volume[to] = birth.volume;
-  });
   return born;
 }
 

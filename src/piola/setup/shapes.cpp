@@ -18,9 +18,9 @@ namespace {
 using Vec3 = std::array<double, 3>;
 
 bool are_points(ShapeSpec const& shape) { return shape.kind == ShapeSpec::Kind::points; }
-bool is_hypoelastic(ShapeSpec const& shape) { return shape.kind == ShapeSpec::Kind::solid; }
+bool is_solid(ShapeSpec const& shape) { return shape.kind == ShapeSpec::Kind::solid; }
 bool in_rings(ShapeSpec const& shape) {
-  return !is_hypoelastic(shape) && !are_points(shape) && shape.arrangement != ShapeSpec::Arrangement::lattice;
+  return !is_solid(shape) && !are_points(shape) && shape.arrangement != ShapeSpec::Arrangement::lattice;
 }
 
 /// The exact region of a shape, whatever its particles are.
@@ -56,7 +56,7 @@ double count_estimate(ShapeSpec const& shape) {
 std::int64_t count_particles(ShapeSpec const& shape) {
   constexpr double countable = 1e8;
   if (are_points(shape)) return shape.cloud ? static_cast<std::int64_t>(shape.cloud->X.size()) : 0;
-  if (is_hypoelastic(shape))
+  if (is_solid(shape))
     return static_cast<std::int64_t>(
         std::min(geometry::packed_count(shape.volume, shape.spacing, shape.dimension), 9e18));
   if (in_rings(shape)) return static_cast<std::int64_t>(std::min(count_ring_particles(shape), 9e18));
@@ -67,7 +67,7 @@ std::int64_t count_particles(ShapeSpec const& shape) {
 }
 
 std::array<double, 3> spacing_of(ShapeSpec const& shape) {
-  if (is_hypoelastic(shape) || are_points(shape)) {
+  if (is_solid(shape) || are_points(shape)) {
     std::array<double, 3> spacing{1, 1, 1};
     for (std::size_t c = 0; c < static_cast<std::size_t>(shape.dimension); ++c) spacing[c] = shape.spacing;
     return spacing;
@@ -110,7 +110,7 @@ void fill_lattice(ShapeSpec const& shape, ParticleSet& set, Body& body) {
   body.spacing = births.lattice().spacing;
   body.lattice = births.lattice().count;
   body.regular = !(shape.jitter > 0) && !shape.random;
-  auto const runs = births.runs(births.everywhere());
+  auto const runs = births.runs();
   std::size_t const first = set.X.size();
   std::size_t const size =
       runs.empty() ? first : first + static_cast<std::size_t>(runs.back().id + runs.back().last - runs.back().first);
@@ -134,14 +134,14 @@ void fill_lattice(ShapeSpec const& shape, ParticleSet& set, Body& body) {
 }  // namespace
 
 void fill(ShapeSpec const& shape, std::string const& name, ParticleSet& set) {
-  PIOLA_EXPECTS(!is_hypoelastic(shape) || shape.solid_particles != nullptr);
+  PIOLA_EXPECTS(!is_solid(shape) || shape.solid_particles != nullptr);
   PIOLA_EXPECTS(!shape.random || shape.kind == ShapeSpec::Kind::box);
   PIOLA_EXPECTS(shape.dimension >= 1 && shape.dimension <= 3);
   Body body;
   body.name = name;
   body.first = set.size();
-  if (!is_hypoelastic(shape) && !are_points(shape)) body.outline = outline_of(shape);
-  if (is_hypoelastic(shape))
+  if (!is_solid(shape) && !are_points(shape)) body.outline = outline_of(shape);
+  if (is_solid(shape))
     fill_solid(shape, set, body);
   else if (are_points(shape))
     fill_points(shape, set, body);

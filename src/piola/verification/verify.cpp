@@ -226,13 +226,13 @@ class VariantListener : public Listener {
 };
 
 VariantRun run_variant(fs::path const& case_file, CheckVariant const& variant, fs::path const& out,
-                       std::vector<FieldSampler::SampleRequest> conversion_requests, Prepare const& prepare,
+                       std::vector<FieldSampler::SampleRequest> sample_requests, Prepare const& prepare,
                        Listener& listener, std::atomic<int> const& stop) {
   VariantRun run{.variant = variant.name};
   try {
     Simulation simulation = prepare(case_file, variant.set);
     run.title = simulation.spec.title;
-    FieldSampler sampler(std::move(conversion_requests), simulation.particles);
+    FieldSampler sampler(std::move(sample_requests), simulation.particles);
     CaseOutcome const outcome =
         run_case(simulation, {.folder = out, .resume = false, .force = true, .also = &sampler}, listener, stop);
     run.samples = sampler.samples();
@@ -272,15 +272,15 @@ Plan plan_of(fs::path const& folder, VerifyOptions const& options) {
 
 /// The fields that checks of a variant need.
 std::vector<FieldSampler::SampleRequest> wishes_of(std::vector<Check> const& checks, std::string const& variant) {
-  std::vector<FieldSampler::SampleRequest> conversion_requests;
+  std::vector<FieldSampler::SampleRequest> sample_requests;
   for (Check const& c : checks) {
-    FieldSampler::SampleRequest const conversion_request{c.field, c.time};
-    bool const known = std::find(conversion_requests.begin(), conversion_requests.end(), conversion_request) !=
-                       conversion_requests.end();
+    FieldSampler::SampleRequest const sample_request{c.field, c.time};
+    bool const known =
+        std::find(sample_requests.begin(), sample_requests.end(), sample_request) != sample_requests.end();
     if (c.as == Check::Comparison::field_error && looks_at(c, variant) && !known)
-      conversion_requests.push_back(conversion_request);
+      sample_requests.push_back(sample_request);
   }
-  return conversion_requests;
+  return sample_requests;
 }
 
 /// Reads all files of checks before anything runs. Throws InputError with the problems of all of them.

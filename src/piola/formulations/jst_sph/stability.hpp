@@ -15,14 +15,8 @@ double largest_step(double frequency, double damping);
 /// largest wave speed, which at the start also gives a lower bound of the frequency. The state is left unchanged.
 class StabilityMonitor {
  public:
-  /// Cost of later measurements in right-hand sides per step.
-  static constexpr double stages_per_step = 4.0 / 50;
-  /// Collectives of later measurements per step: the mode, motions of right-hand sides, three maxima, two sums.
-  static constexpr double collectives_per_step = 9.0 / 50;
   /// Power iterations from a random start.
   static constexpr int first_rounds = 40;
-  /// Cost of the first measurements in right-hand sides: each with one about the state without displacement.
-  static constexpr double setup_stages = 2 * (first_rounds + 1);
 
   /// Measures both from a random start.
   StabilityMonitor(JstBody& body, Backend const& backend);

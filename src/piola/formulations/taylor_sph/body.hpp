@@ -101,7 +101,6 @@ class TaylorBody {
   std::size_t bytes() const;
   /// Communication pattern of the body; empty if not modelled: the exchange of estimates.
   Index local_of(Index slot) const { return local_of_[at(slot)]; }
-  Index virtual_particles() const { return state_.virtual_count; }
 
  private:
   static std::size_t at(Index i) { return static_cast<std::size_t>(i); }

@@ -30,7 +30,7 @@ int points_of(Kind kind, int dimension) {
   return dimension == 3 ? 4 : 2;  // corners of a face
 }
 
-bool is_hypoelastic(RigidShape const& shape) { return shape.kind == Kind::box || shape.kind == Kind::cylinder; }
+bool has_inside(RigidShape const& shape) { return shape.kind == Kind::box || shape.kind == Kind::cylinder; }
 
 }  // namespace
 
@@ -42,7 +42,7 @@ RigidPairs::RigidPairs(std::vector<RigidShape> const& shapes, int dimension, Set
     for (std::size_t b = 0; b < shapes.size(); ++b) {
       RigidShape const &one = shapes[a], &other = shapes[b];
       if (a == b || !(one.free || other.free)) continue;
-      if (is_hypoelastic(one) && is_hypoelastic(other)) {  // each in turn
+      if (has_inside(one) && has_inside(other)) {  // each in turn
         if (samples_[a].empty()) samples_[a] = samples_of(one, dimension);
         pairs_.push_back({a, b, 0.5 * setting.stiffness, 0.5, true});
         continue;
