@@ -89,16 +89,16 @@ class Mp4Encoder : public Film::FilmEncoder {
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     close(open_result(part_, Opening::replace));  // removes a link of that name instead of following it
-    int const repair_note = open_result(complaints_, Opening::replace);
+    int const error_output = open_result(complaints_, Opening::replace);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[1], 0);
     posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, repair_note, 2);
+    posix_spawn_file_actions_adddup2(&actions, error_output, 2);
     int const error = posix_spawn(&child_, arguments[0], &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     close(ends[1]);
-    close(repair_note);
+    close(error_output);
     if (error != 0) child_ = -1;
     if (error != 0) fail();
   }

@@ -119,7 +119,7 @@ Links prepare(Surface& surface, std::string const& name, MeshOptions const& opti
   repair_faces(surface, name, options, report);
   Links links = link_faces(surface);
   bool const turns = options.repair == MeshOptions::Repair::orient || options.repair == MeshOptions::Repair::faces;
-  if (turns && links.open.empty() && links.neighbour_overflow.empty()) {
+  if (turns && links.open.empty() && links.non_manifold.empty()) {
     report.mended = orient(surface, links);
     if (report.mended > 0)
       report.notes.push_back(fmt::format("{}: {} faces are turned", name, count_text(report.mended)));

@@ -30,7 +30,7 @@ struct MeshReport {
   std::vector<std::string> notes;     ///< remarks that forbid nothing
   std::int64_t corners = 0, faces = 0, shells = 0;
   std::int64_t dropped = 0;  ///< faces with equal corners
-  std::int64_t open = 0, neighbour_overflow = 0,
+  std::int64_t open = 0, non_manifold = 0,
                turned = 0;                   ///< edges: used once, more than twice, between faces turned about
   std::int64_t mended = 0;                   ///< faces turned by Repair::orient, Repair::faces
   std::int64_t merged = 0;                   ///< corners merged with nearby ones

@@ -94,17 +94,16 @@ void check_open(Surface const& surface, Links const& links, std::string const& n
 }
 
 void check_crowded(Surface const& surface, Links const& links, std::string const& name, MeshReport& report) {
-  if (links.neighbour_overflow.empty()) return;
+  if (links.non_manifold.empty()) return;
   Links const mended = links_without_needless(surface);
-  bool const removable = mended.neighbour_overflow.empty() && !mended.across.empty();
+  bool const removable = mended.non_manifold.empty() && !mended.across.empty();
   double longest = 0;
-  for (int const half : links.neighbour_overflow) longest = std::max(longest, surface.edge_length(half / 3, half % 3));
+  for (int const half : links.non_manifold) longest = std::max(longest, surface.edge_length(half / 3, half % 3));
   report.problems.push_back(fmt::format(
       "{}: {} used by more than two faces (allowed: two), the longest {}, {} - {}remove faces that lie inside "
       "the body or stand twice, or part bodies that touch",
-      name, edges_text(links.neighbour_overflow.size()), length_text(longest),
-      near_text(middle_of_side(surface, links.neighbour_overflow.front())),
-      removable ? "set repair = \"faces\", or " : ""));
+      name, edges_text(links.non_manifold.size()), length_text(longest),
+      near_text(middle_of_side(surface, links.non_manifold.front())), removable ? "set repair = \"faces\", or " : ""));
 }
 
 void check_turned(Surface const& surface, Links const& links, std::string const& name, MeshOptions const& options,
@@ -182,13 +181,13 @@ void check_links(Surface const& surface, Links const& links, std::string const& 
                  MeshReport& report) {
   PIOLA_EXPECTS(links.across.size() == 3 * surface.corner.size());
   report.open = static_cast<std::int64_t>(links.open.size());
-  report.neighbour_overflow = static_cast<std::int64_t>(links.neighbour_overflow.size());
+  report.non_manifold = static_cast<std::int64_t>(links.non_manifold.size());
   report.turned = static_cast<std::int64_t>(links.turned.size());
   report.longest_hole = longest_hole(surface, links);
   check_open(surface, links, name, options, report);
   check_crowded(surface, links, name, report);
   check_turned(surface, links, name, options, report);
-  bool const closed = report.open + report.neighbour_overflow + report.turned == 0;
+  bool const closed = report.open + report.non_manifold + report.turned == 0;
   if (closed && !(report.volume > 0))
     report.problems.push_back(
         fmt::format("{}: the surface is inside out (it encloses {:.3g} m^3) - turn it in the CAD program, or set "

@@ -164,7 +164,7 @@ double closing_distance(Surface const& surface, Links const& links) {
   Surface trial = surface;
   merge_corners(trial, margin * farthest);
   Links const after = link_faces(trial);
-  return after.open.empty() && after.neighbour_overflow.empty() && trial.faces() > 0 ? margin * farthest : 0;
+  return after.open.empty() && after.non_manifold.empty() && trial.faces() > 0 ? margin * farthest : 0;
 }
 
 RemovedFaces remove_needless_faces(Surface& surface) {

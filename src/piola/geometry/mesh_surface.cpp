@@ -131,14 +131,14 @@ Links link_faces(Surface const& surface) {
     while (end < sides.size() && sides[end].same_edge(sides[begin])) ++end;
     int const half = sides[begin].half;
     if (end - begin == 1) links.open.push_back(half);
-    if (end - begin > 2) links.neighbour_overflow.push_back(half);
+    if (end - begin > 2) links.non_manifold.push_back(half);
     if (end - begin != 2) continue;
     int const other = sides[begin + 1].half;
     links.across[half] = other;
     links.across[other] = half;
     if (surface.corner[half / 3][half % 3] == surface.corner[other / 3][other % 3]) links.turned.push_back(half);
   }
-  for (auto* list : {&links.open, &links.neighbour_overflow, &links.turned}) std::sort(list->begin(), list->end());
+  for (auto* list : {&links.open, &links.non_manifold, &links.turned}) std::sort(list->begin(), list->end());
   number_shells(links);
   PIOLA_ENSURES(links.shell.size() == surface.corner.size());
   return links;

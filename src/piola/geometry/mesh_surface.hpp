@@ -24,11 +24,11 @@ struct Surface {
 
 /// Adjacency of faces at edges. A half-edge is 3 * face + side; side k goes from corner k to the next.
 struct Links {
-  std::vector<int> across;              ///< per half-edge, the one of the neighbour; -1 where there is not exactly one
-  std::vector<int> open;                ///< half-edges of edges used once
-  std::vector<int> neighbour_overflow;  ///< the first half-edge of each edge used more than twice
-  std::vector<int> turned;              ///< the first half-edge of each edge between faces of opposite orientation
-  std::vector<int> shell;               ///< per face, counted from 0 in the order of the faces
+  std::vector<int> across;        ///< per half-edge, the one of the neighbour; -1 where there is not exactly one
+  std::vector<int> open;          ///< half-edges of edges used once
+  std::vector<int> non_manifold;  ///< the first half-edge of each edge used more than twice
+  std::vector<int> turned;        ///< the first half-edge of each edge between faces of opposite orientation
+  std::vector<int> shell;         ///< per face, counted from 0 in the order of the faces
   int shells = 0;
 };
 

@@ -174,16 +174,15 @@ class Solid {
     V const mises = von_mises(trial), strain = increment(mises, h, pressure, rho / rho0, dt, last_flow);
     h.S = scaled(trial, mises, strain);
     if (spall_ != 0) tear(h, pressure);
-    auto const is_eulerian = strain > 0.0;
-    if (!any(is_eulerian)) return V(0.0);
+    auto const yields = strain > 0.0;
+    if (!any(yields)) return V(0.0);
     V const left = mises - 3 * mu * strain, flow = select(left > 0.0, left, V(0.0));
     if (wears_) wear(h, pressure, left, strain, rho, dt);
     V const work = flow * strain * rho0 / rho;
-    h.plastic_strain = select(is_eulerian, h.plastic_strain + strain, h.plastic_strain);
-    h.plastic_work = select(is_eulerian, h.plastic_work + work, h.plastic_work);
-    h.temperature =
-        select(is_eulerian, h.temperature + heat_.fraction * work / (rho0 * heat_.specific_heat), h.temperature);
-    return select(is_eulerian, flow, V(0.0));
+    h.plastic_strain = select(yields, h.plastic_strain + strain, h.plastic_strain);
+    h.plastic_work = select(yields, h.plastic_work + work, h.plastic_work);
+    h.temperature = select(yields, h.temperature + heat_.fraction * work / (rho0 * heat_.specific_heat), h.temperature);
+    return select(yields, flow, V(0.0));
   }
 
   /// Whether tension fails the material: `hydrostatic`, when the mean stress reaches spall_pressure; `principal`, when
@@ -309,10 +308,10 @@ class Solid {
   }
   template <class V>
   PIOLA_FN SymMat<3, V> scaled(SymMat<3, V> S, V const& mises, V const& strain) const {
-    auto const is_eulerian = strain > 0.0;
-    if (!any(is_eulerian)) return S;
+    auto const yields = strain > 0.0;
+    if (!any(yields)) return S;
     V const left = mises - 3 * mu * strain;
-    V const factor = select(is_eulerian, select(left > 0.0, left / mises, V(0.0)), V(1.0));
+    V const factor = select(yields, select(left > 0.0, left / mises, V(0.0)), V(1.0));
     for (V& s : S.c) s = s * factor;
     return S;
   }
