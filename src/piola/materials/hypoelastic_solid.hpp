@@ -174,15 +174,15 @@ class Solid {
     V const mises = von_mises(trial), strain = increment(mises, h, pressure, rho / rho0, dt, last_flow);
     h.S = scaled(trial, mises, strain);
     if (spall_ != 0) tear(h, pressure);
-    auto const yields = strain > 0.0;
-    if (!any(yields)) return V(0.0);
+    auto const flowing = strain > 0.0;
+    if (!any(flowing)) return V(0.0);
     V const left = mises - 3 * mu * strain, flow = select(left > 0.0, left, V(0.0));
     if (wears_) wear(h, pressure, left, strain, rho, dt);
     V const work = flow * strain * rho0 / rho;
-    h.plastic_strain = select(yields, h.plastic_strain + strain, h.plastic_strain);
-    h.plastic_work = select(yields, h.plastic_work + work, h.plastic_work);
-    h.temperature = select(yields, h.temperature + heat_.fraction * work / (rho0 * heat_.specific_heat), h.temperature);
-    return select(yields, flow, V(0.0));
+    h.plastic_strain = select(flowing, h.plastic_strain + strain, h.plastic_strain);
+    h.plastic_work = select(flowing, h.plastic_work + work, h.plastic_work);
+    h.temperature = select(flowing, h.temperature + heat_.fraction * work / (rho0 * heat_.specific_heat), h.temperature);
+    return select(flowing, flow, V(0.0));
   }
 
   /// Whether tension fails the material: `hydrostatic`, when the mean stress reaches spall_pressure; `principal`, when
@@ -207,9 +207,9 @@ class Solid {
         kappa(0),
         spall_pressure(m.value[Layout::spall]),
         damages(false),
-        scatter(Strength::yields ? m.value + Layout::scatter : none),
-        wears_(Strength::brittle || (Strength::yields && m.word[Layout::damage_word] > 0)),
-        spall_(Strength::yields ? m.word[Layout::spall_word] : 0),
+        scatter(Strength::flowing ? m.value + Layout::scatter : none),
+        wears_(Strength::brittle || (Strength::flowing && m.word[Layout::damage_word] > 0)),
+        spall_(Strength::flowing ? m.word[Layout::spall_word] : 0),
         heat_(heat),
         strength_(m.value + Layout::strength, heat),
         eos_(EosValues(elastic.rho0, elastic.kappa, m.value + Layout::eos)),
@@ -225,7 +225,7 @@ class Solid {
   template <class V>
   PIOLA_FN V increment(V const& mises, SolidHistoryOf<V> const& h, V const& pressure, V const& compression, double dt,
                        V const& last_flow) const {
-    if constexpr (!Strength::yields) {
+    if constexpr (!Strength::flowing) {
       return V(0.0);
     } else if constexpr (requires { strength_.increments(mises, mu, h.plastic_strain); }) {
       return strength_.increments(mises, 3 * mu, h.plastic_strain);
@@ -308,10 +308,10 @@ class Solid {
   }
   template <class V>
   PIOLA_FN SymMat<3, V> scaled(SymMat<3, V> S, V const& mises, V const& strain) const {
-    auto const yields = strain > 0.0;
-    if (!any(yields)) return S;
+    auto const flowing = strain > 0.0;
+    if (!any(flowing)) return S;
     V const left = mises - 3 * mu * strain;
-    V const factor = select(yields, select(left > 0.0, left / mises, V(0.0)), V(1.0));
+    V const factor = select(flowing, select(left > 0.0, left / mises, V(0.0)), V(1.0));
     for (V& s : S.c) s = s * factor;
     return S;
   }
