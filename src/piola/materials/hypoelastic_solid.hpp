@@ -207,9 +207,9 @@ class Solid {
         kappa(0),
         spall_pressure(m.value[Layout::spall]),
         damages(false),
-        scatter(Strength::flowing ? m.value + Layout::scatter : none),
-        wears_(Strength::brittle || (Strength::flowing && m.word[Layout::damage_word] > 0)),
-        spall_(Strength::flowing ? m.word[Layout::spall_word] : 0),
+        scatter(Strength::yields ? m.value + Layout::scatter : none),
+        wears_(Strength::brittle || (Strength::yields && m.word[Layout::damage_word] > 0)),
+        spall_(Strength::yields ? m.word[Layout::spall_word] : 0),
         heat_(heat),
         strength_(m.value + Layout::strength, heat),
         eos_(EosValues(elastic.rho0, elastic.kappa, m.value + Layout::eos)),
@@ -225,7 +225,7 @@ class Solid {
   template <class V>
   PIOLA_FN V increment(V const& mises, SolidHistoryOf<V> const& h, V const& pressure, V const& compression, double dt,
                        V const& last_flow) const {
-    if constexpr (!Strength::flowing) {
+    if constexpr (!Strength::yields) {
       return V(0.0);
     } else if constexpr (requires { strength_.increments(mises, mu, h.plastic_strain); }) {
       return strength_.increments(mises, 3 * mu, h.plastic_strain);
