@@ -4,11 +4,12 @@
 source "${PIOLA_SOURCE_DIR:-$(dirname "$0")/../..}/tests/app/helpers.sh"
 cp "$helpers/../regression/study/bar.toml" "$helpers/../regression/study/tiny.toml" .
 
-# The bar's end moves by 2 v/pi = 63.662 mm.
+# The bar's end moves by 2 v/pi = 63.662 mm. The dissipation of the default scheme, of fourth differences with a factor
+# h^3, makes the error one of third order.
 expect 0 "run-3: spacing 25 mm, 41 particles" "$program" converge bar.toml --factors 1 0.5 0.25 --check
 check test ! -e bar-converge
 expect 0 "3 of 3 completed" "$program" converge bar.toml --factors 1 0.5 0.25
-awk -F, '$1 == "reach" { exit !($6 == "monotonic" && $7 > 1.2 && $7 < 2.2 && $8 > 63.63 && $8 < 63.69) }' \
+awk -F, '$1 == "reach" { exit !($6 == "monotonic" && $7 > 2.5 && $7 < 3.5 && $8 > 63.63 && $8 < 63.69) }' \
   bar-converge/convergence.csv || { echo "FAILED:"; cat bar-converge/convergence.csv; failures=$((failures + 1)); }
 # Estimated errors cover the true ones.
 awk -F, '$1 == "reach" { for (k = 3; k < 6; k++) { e = $k - 63.662; if (e < 0) e = -e; if (e > $(k + 6)) exit 1 } }' \

@@ -44,10 +44,10 @@ TEST(StepRange, IsWiderWhereTheLastTrialStepsChanged) {
 TEST(StepRange, IsThatOfContactWhateverTheTrialFound) {
   for (double const change : {0.0, 0.5}) {
     EXPECT_EQ(step_excess(two_squares("adaptle"), change).factor, 6) << "contact of the formulation";
-    EXPECT_EQ(step_excess(two_squares("jst_sph"), change).factor, 2.5) << "contact of surfaces";
-    EXPECT_EQ(step_excess(two_squares("jst_sph", "[contact]\nlaw = \"none\"\n"), change).factor, change == 0 ? 1 : 1.5);
+    EXPECT_EQ(step_excess(two_squares("nodal"), change).factor, 2.5) << "contact of surfaces";
+    EXPECT_EQ(step_excess(two_squares("nodal", "[contact]\nlaw = \"none\"\n"), change).factor, change == 0 ? 1 : 1.5);
   }
-  std::string const why = step_excess(two_squares("jst_sph"), 0).why;
+  std::string const why = step_excess(two_squares("nodal"), 0).why;
   EXPECT_EQ(
       why, "steps are known as a range: contact and impact make them shorter (up to 2.5 times as many in cases known)");
 }

@@ -13,7 +13,7 @@ std::string failure_of(std::string const& formulation, std::string const& more) 
   std::string const text =
       "title = \"Bar\"\n[run]\nend = \"10 ms\"\n[[body]]\nname = \"bar\"\n"
       "shape = { box = { min = [0, 0], max = [0.8, 0.4] }, particles = [8, 4], placement = \"cell_centred\" }\n"
-      "material = { law = \"elastic\", density = 1000, youngs_modulus = 1e7, poissons_ratio = 0.3 }\n"
+      "material = { law = \"linear_elastic\", density = 1000, youngs_modulus = 1e7, poissons_ratio = 0.3 }\n"
       "formulation = { name = \"" +
       formulation + "\" }\n" + more;
   Simulation s = build(read_case_text(text, "case.toml"));

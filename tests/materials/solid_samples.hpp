@@ -22,9 +22,9 @@ template <class... A>
 struct Joined<::testing::Types<A...>> {
   using type = ::testing::Types<A...>;
 };
-template <class... A, class... B, class... RelaxationStatus>
-struct Joined<::testing::Types<A...>, ::testing::Types<B...>, RelaxationStatus...>
-    : Joined<::testing::Types<A..., B...>, RelaxationStatus...> {};
+template <class... A, class... B, class... Rest>
+struct Joined<::testing::Types<A...>, ::testing::Types<B...>, Rest...>
+    : Joined<::testing::Types<A..., B...>, Rest...> {};
 
 template <class Strength, class Eos>
 struct OneCase {

@@ -144,7 +144,7 @@ TEST(CaseMessages, ProbesAndQuantitiesMustFitTogether) {
   EXPECT_EQ(
       message_of(sample_case() + "[[quantity]]\nname = \"q\"\ncolumn = \"tip.presure\"\n"),
       "case.toml:25:10: quantity.column is \"tip.presure\" (allowed: tip.pressure, time, total_energy, pressure_min, "
-      "pressure_max, step, strain_energy, dt and 26 more) - did you mean \"tip.pressure\"?");
+      "pressure_max, step, strain_energy, dt and 23 more) - did you mean \"tip.pressure\"?");
   EXPECT_EQ(message_of(sample_case() +
                        "[[quantity]]\nname = \"q\"\ncolumn = \"tip.pressure\"\nunit = \"m\"\nthreshold = 3\n"),
             "case.toml:26:8: quantity.unit is \"m\" (allowed: a unit of a pressure or modulus such as Pa)\n"
@@ -193,9 +193,10 @@ formulation = { name = "jst_sph" }
 }
 
 TEST(CaseMessages, SettingsOfTheCommandLineAreNamed) {
-  EXPECT_EQ(message_of(sample_case(), {"run.ens=1"}),
-            "--set run.ens=1: \"ens\" is not a key of run (allowed: end, cfl, damping, relax, rest, max_step, "
-            "min_step, threads, instruction_set, repartition, guards) - did you mean \"end\"?");
+  EXPECT_EQ(
+      message_of(sample_case(), {"run.ens=1"}),
+      "--set run.ens=1: \"ens\" is not a key of run (allowed: end, cfl, damping, relax, relax_tolerance, max_step, "
+      "min_step, threads, instruction_set, repartition, guards) - did you mean \"end\"?");
   EXPECT_EQ(message_of(sample_case(), {"body.colum.name=a"}),
             "--set body.colum.name=a: no body has the name \"colum\" (known: column) - did you mean \"column\"?");
   EXPECT_EQ(

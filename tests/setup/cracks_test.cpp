@@ -140,7 +140,7 @@ TEST(Crack, CracksStayApart) {
   open_crack(set, 0, {0.5, 0.5, 0}, {1.5, 0.5, 0});
   auto const why = [&](Vec3 const& from, Vec3 const& to) { return trace_crack(set, 0, from, to).problem; };
   std::string const touches =
-      "the crack in body \"plate\" touches the crack from (0.5, 0.5) m to (1.5, 0.5) m (allowed: cracks apart from "
+      "the crack in body \"plate\" meets the crack from (0.5, 0.5) m to (1.5, 0.5) m (allowed: cracks apart from "
       "each "
       "other) - move one of them";
   EXPECT_EQ(why({1, 0, 0}, {1, 1, 0}), touches);        // across

@@ -9,7 +9,7 @@ if [[ $(uname -m) != x86_64 ]] || ! command -v g++ >/dev/null; then
 fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-mkdir -p "$work/machines"
+mkdir -p "$work/backends"
 failures=0
 fail() { echo "$1"; failures=$((failures + 1)); }
 
@@ -23,20 +23,20 @@ double solve(std::vector<double> const& v) { return own(shared(v)); }
 CODE
 g++ -std=c++20 -O1 -march=x86-64-v3 -c -o "$work/plain.o" "$work/backend.cpp" || fail "the compiler failed"
 
-cp "$work/plain.o" "$work/machines/demo.v3.o"
+cp "$work/plain.o" "$work/backends/demo.v3.o"
 output=$("$root/tools/check_isa" "$work") && fail "check_isa accepted an object file that is not sealed"
 [[ $output == *"demo.v3.o: shares 'double shared<double>"* ]] || fail "the shared function is not named: $output"
-[[ $output != *"own<"* ]] || fail "a function of the machine's namespace is reported: $output"
+[[ $output != *"own<"* ]] || fail "a function of the backend's namespace is reported: $output"
 
-bash "$root/cmake/seal_backend.sh" v3 "$work/machines/demo.v3.o" "$work/plain.o" || fail "sealing failed"
+bash "$root/cmake/seal_backend.sh" v3 "$work/backends/demo.v3.o" "$work/plain.o" || fail "sealing failed"
 output=$("$root/tools/check_isa" "$work") || fail "check_isa refuses a sealed object file: $output"
-nm -C "$work/machines/demo.v3.o" | grep -q ' T piola::v3::solve' || fail "sealing hid the machine's own function"
+nm -C "$work/backends/demo.v3.o" | grep -q ' T piola::v3::solve' || fail "sealing hid the backend's own function"
 
 cat >"$work/backend.cpp" <<'CODE'
 double first();
 double const early = first();
 CODE
-g++ -std=c++20 -O1 -c -o "$work/machines/demo.v3.o" "$work/backend.cpp"
+g++ -std=c++20 -O1 -c -o "$work/backends/demo.v3.o" "$work/backend.cpp"
 output=$("$root/tools/check_isa" "$work") && fail "check_isa accepted code that runs at program start"
 [[ $output == *"runs code at program start"* ]] || fail "the early code is not reported: $output"
 

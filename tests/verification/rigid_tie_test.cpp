@@ -151,7 +151,8 @@ TEST_P(GluedToRigid, WhatFailedIsPushed) {
   auto const f = make_formulation(a);
   double const start = f->diagnose().total_energy();
   double time = 0, touched = 0, overlap = 0;
-  for (int k = 0; k < 600; ++k) {
+  // Until 50 ms: the block then slides off the edge of the plate, which is thinner than a spacing.
+  for (int k = 0; k < 600 && time < 0.05; ++k) {
     run(*f, time, 1);
     Diagnostics const d = f->diagnose();
     touched = std::max(touched, column(d, "contact_points"));

@@ -242,8 +242,8 @@ double typical_radius(std::span<double const> radius) {
 
 Scene make_scene(PictureData const& data, Appearance const& appearance, Projection const& project, int fine) {
   PIOLA_EXPECTS(fine >= 1);
-  PIOLA_EXPECTS(data.radius.size() == data.points.size());
-  PIOLA_EXPECTS((data.colours.empty() ? data.values.size() : data.colours.size()) == data.points.size());
+  PIOLA_EXPECTS(data.radius.size() >= data.points.size());
+  PIOLA_EXPECTS((data.colours.empty() ? data.values.size() : data.colours.size()) >= data.points.size());
   PIOLA_EXPECTS(data.body.empty() || data.body.size() == data.points.size());
   PIOLA_EXPECTS(data.loose.empty() || data.loose.size() == data.points.size());
   Scene scene;

@@ -44,7 +44,8 @@ TEST_P(EveryLaw, GivesTheSameMotionOnEveryMachine) {
   }
 }
 
-/// Without stabilisation and projection the energy error is of second order in the step, or better.
+/// Without stabilisation and projection the energy error is of second order in the step, or better. Below 1e-7 terms of
+/// higher orders cancel, and there is no order to see.
 TEST_P(EveryLaw, KeepsTheEnergyThatItStores) {
   for (auto const* variables : {"pF", "pFJ", "pFHJ"}) {
     Assembly a = tumbling(variables);
@@ -60,7 +61,7 @@ TEST_P(EveryLaw, KeepsTheEnergyThatItStores) {
     };
     double const fine = error(320);
     EXPECT_LT(fine, 2e-4) << variables;
-    EXPECT_LT(fine, 0.35 * error(160)) << variables;
+    EXPECT_LT(fine, std::max(0.35 * error(160), 1e-7)) << variables;
   }
 }
 
