@@ -23,8 +23,8 @@ struct Joined<::testing::Types<A...>> {
   using type = ::testing::Types<A...>;
 };
 template <class... A, class... B, class... Rest>
-struct Joined<::testing::Types<A...>, ::testing::Types<B...>, Rest...>
-    : Joined<::testing::Types<A..., B...>, Rest...> {};
+struct Joined<::testing::Types<A...>, ::testing::Types<B...>, Rest...> : Joined<::testing::Types<A..., B...>, Rest...> {
+};
 
 template <class Strength, class Eos>
 struct OneCase {

@@ -77,9 +77,7 @@ Colour Image::at(int x, int y) const {
   return {p[0], p[1], p[2]};
 }
 
-void Image::set(int x, int y, Colour colour) {
-  std::copy(colour.begin(), colour.end(), &rgb[offset(*this, x, y)]);
-}
+void Image::set(int x, int y, Colour colour) { std::copy(colour.begin(), colour.end(), &rgb[offset(*this, x, y)]); }
 
 Image without_background(Image const& on_black, Image const& on_white) {
   PIOLA_EXPECTS(on_black.width == on_white.width && on_black.height == on_white.height);

@@ -181,7 +181,8 @@ class Solid {
     V const work = flow * strain * rho0 / rho;
     h.plastic_strain = select(flowing, h.plastic_strain + strain, h.plastic_strain);
     h.plastic_work = select(flowing, h.plastic_work + work, h.plastic_work);
-    h.temperature = select(flowing, h.temperature + heat_.fraction * work / (rho0 * heat_.specific_heat), h.temperature);
+    h.temperature =
+        select(flowing, h.temperature + heat_.fraction * work / (rho0 * heat_.specific_heat), h.temperature);
     return select(flowing, flow, V(0.0));
   }
 
