@@ -189,13 +189,13 @@ every = "0.2 us"
 # A few particles in lists, which whirl until one is inverted.
 WHIRLED = """title = "A coarse ball that whirls"
 [run]
-end = "2 ms"
+end = "40 ms"
 [[body]]
 name = "ball"
 shape = { sphere = { centre = ["0 mm", "0 mm", "0 mm"], radius = "20 mm" }, spacing = "19 mm", jitter = 0.3 }
-material = { law = "neo_hookean", density = 1100, youngs_modulus = "5 MPa", poissons_ratio = 0.45 }
+material = { law = "neo_hookean", density = 1100, youngs_modulus = "5 kPa", poissons_ratio = 0.45 }
 formulation = { name = "jst_sph", scheme = "paper", gradient_support = 0.8 }
-initial_velocity = ["40*Y", "-40*X", "0"]
+initial_velocity = ["400*Y", "-400*X", "0"]
 [[support]]
 body = "ball"
 where = "X < -0.014"

@@ -186,7 +186,7 @@ def check_words(bar, work):
     wrong = bar.read_text().replace('youngs_modulus = "17 MPa"', 'youngs_modulus = "17 Pa"')
     (work / "soft.toml").write_text(wrong)
     alone, shared = (piola(n, "run", work / "soft.toml", "--out", work / f"soft{n}", "--no-pictures", "--set",
-                           'run.end="3 s"') for n in (1, 3))
+                           'run.end="10 s"') for n in (1, 3))
     expect(alone.returncode == 3, f"the soft bar does not fail: {alone.stdout}{alone.stderr}")
     expect(shared.returncode == 3, f"the soft bar on 3 ranks: exit code {shared.returncode}")
     said = [line for line in alone.stderr.splitlines() if "particle" in line][:1]
