@@ -8,6 +8,8 @@ void add_instruction_set(CLI::App& command, std::string& backend, std::string co
   command.add_option("--machine", backend, about)->group("")->excludes(option);
 }
 
+bool is_shown(CLI::Option const* option) { return !option->get_group().empty(); }
+
 void CaseOptions::add_to(CLI::App& command, bool with_file) {
   if (with_file) command.add_option("case", file, "The case file, or a folder that holds case.toml")->required();
   command

@@ -47,8 +47,7 @@ Estimate cost_of(CaseSpec const& spec, ParticleSet const& particles) {
     return estimate_from_parts(spec, particles, exec_host::set_threads(spec.run.threads));
   CostMeter const meter;
   Simulation simulation = build(spec, particles);
-  Trial trial;
-  return estimate(simulation, meter, trial);
+  return estimate(simulation, meter).first;
 }
 
 /// The case as it is, with all settings but those of the spacing.

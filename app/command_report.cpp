@@ -33,7 +33,7 @@ void tell_notes(report::ReportResult const& result) {
 }
 
 /// Anew every ten seconds, until the run has ended or a signal comes.
-int follow(ReportArguments const& options, std::filesystem::path const& out) {
+int rewrite_until_ended(ReportArguments const& options, std::filesystem::path const& out) {
   catch_stop_signals();
   for (;;) {
     auto const result = write_one(options, out);
@@ -53,7 +53,7 @@ int write_page_of_run(ReportArguments options) {
   for (std::string& field : options.what.fields) field = current_output_name(field);
   options.what.budget = options.megabytes * 1e6;
   options.what.reload = options.follow ? follow_seconds : 0;
-  if (options.follow) return follow(options, out);
+  if (options.follow) return rewrite_until_ended(options, out);
   tell_notes(write_one(options, out));
   return completed;
 }

@@ -34,7 +34,7 @@ int resume(ResumeArguments const& options) {
                                   .unfinished = folder_for_unfinished(options.folder),
                                   .of_results = true},
                                  {.wall_time = wall_time, .quiet = options.quiet});
-  if (comm::rank() != 0) return follow(simulation);
+  if (comm::rank() != 0) return run_worker(simulation);
   return run_and_report(simulation, {.folder = options.folder, .resume = true, .force = false, .wall_time = wall_time},
                         options.quiet);
 }

@@ -26,7 +26,7 @@ int run(RunArguments const& options) {
                                   .unfinished = folder_for_unfinished(folder),
                                   .pictures = !options.no_pictures},
                                  {.wall_time = wall_time, .quiet = options.quiet});
-  if (comm::rank() != 0) return follow(simulation);
+  if (comm::rank() != 0) return run_worker(simulation);
   RunOptions const where{
       .folder = folder, .resume = false, .force = options.force, .case_file = file, .wall_time = wall_time};
   return run_and_report(simulation, where, options.quiet);

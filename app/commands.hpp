@@ -29,6 +29,8 @@ void add_bench(CLI::App& program, Action& action);
 
 /// Adds --instruction-set, and --machine, its name in the previous minor release, which no help shows.
 void add_instruction_set(CLI::App& command, std::string& backend, std::string const& about);
+/// False for names of the previous release, which are in no group.
+bool is_shown(CLI::Option const* option);
 
 /// Common options of several commands: changes of a case on the command line before it is read.
 struct CaseOptions {

@@ -13,9 +13,6 @@ std::vector<CLI::App const*> commands_of(CLI::App const& program) {
   return program.get_subcommands([](CLI::App const*) { return true; });
 }
 
-/// Options of the previous release are in no group.
-bool is_shown(CLI::Option const* option) { return !option->get_group().empty(); }
-
 /// Text for troff: hyphens that can be searched for, backslashes as such, and no line that begins a request.
 std::string troff(std::string_view text) {
   std::string out;

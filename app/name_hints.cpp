@@ -8,13 +8,10 @@
 namespace piola::app {
 namespace {
 
-/// of_help: without the names of the previous release, which help does not show.
-std::vector<std::string> long_options(CLI::App const& command, bool of_help) {
+std::vector<std::string> long_names(std::vector<CLI::Option const*> const& options) {
   std::vector<std::string> names;
-  for (CLI::Option const* option : command.get_options()) {
-    if (of_help && option->get_group().empty()) continue;
+  for (CLI::Option const* option : options)
     for (std::string const& name : option->get_lnames()) names.push_back("--" + name);
-  }
   return names;
 }
 
@@ -59,11 +56,11 @@ std::string name_hints(CLI::App const& program, std::span<char const* const> arg
     }
     if (!argument.starts_with("--")) continue;
     CLI::App const& owner = command != nullptr ? *command : program;
-    std::vector<std::string> const known = long_options(owner, false);
+    std::vector<std::string> const known = long_names(owner.get_options());
     std::string const name = argument.substr(0, argument.find('='));
     if (std::find(known.begin(), known.end(), name) == known.end())
       text += hint(command != nullptr ? "piola " + command->get_name() : "piola", "option", name,
-                   long_options(owner, true));
+                   long_names(owner.get_options(is_shown)));
   }
   return command != nullptr ? text + quote_hint(command->get_name(), arguments) : text;
 }

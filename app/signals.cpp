@@ -22,7 +22,7 @@ std::int64_t milliseconds() {
 }
 
 extern "C" void on_stop_signal(int signal, siginfo_t* info, void*) {
-  constexpr std::int64_t shutdown_timeout = 500;
+  constexpr std::int64_t least_gap = 500;  // ms between two stop signals
   std::int64_t const now = milliseconds();
   std::int64_t before = 0;
   if (first_signal.compare_exchange_strong(before, now)) {
@@ -30,7 +30,7 @@ extern "C" void on_stop_signal(int signal, siginfo_t* info, void*) {
     return;
   }
   bool const from_keyboard = info != nullptr && info->si_code == SI_KERNEL && signal == SIGINT;
-  if (from_keyboard || now - before >= shutdown_timeout) ::_exit(128 + signal);
+  if (from_keyboard || now - before >= least_gap) ::_exit(128 + signal);
 }
 
 extern "C" void on_checkpoint_signal(int signal, siginfo_t*, void*) {

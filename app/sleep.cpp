@@ -9,8 +9,8 @@
 namespace piola::app {
 
 void sleep_while_waiting(char** arguments) {
-  for (char const* const conversion_request : {"OMP_WAIT_POLICY", "GOMP_SPINCOUNT", "KMP_BLOCKTIME"}) {
-    if (std::getenv(conversion_request) != nullptr) return;
+  for (char const* const variable : {"OMP_WAIT_POLICY", "GOMP_SPINCOUNT", "KMP_BLOCKTIME"}) {
+    if (std::getenv(variable) != nullptr) return;
   }
   // Without a base the loader was asked by name to start the program, so that /proc/self/exe is the loader.
   if (::getauxval(AT_BASE) == 0) return;

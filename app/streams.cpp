@@ -16,8 +16,8 @@ int out_error = 0;  // the first error of standard output
 bool silent = false;
 
 /// Writes the whole text; returns 0 or the errno of the failure. Waits for a non-blocking descriptor for at most
-/// `patience` [ms] (-1: no limit).
-int write_all(int descriptor, std::string_view text, int shutdown_timeout) {
+/// `timeout` [ms] (-1: no limit).
+int write_all(int descriptor, std::string_view text, int timeout) {
   while (!text.empty()) {
     ::ssize_t const written = ::write(descriptor, text.data(), text.size());
     if (written >= 0) {
@@ -28,7 +28,7 @@ int write_all(int descriptor, std::string_view text, int shutdown_timeout) {
     if (error == EINTR) continue;
     if (error != EAGAIN) return error;
     pollfd ready{.fd = descriptor, .events = POLLOUT, .revents = 0};
-    if (::poll(&ready, 1, shutdown_timeout) == 0) return error;
+    if (::poll(&ready, 1, timeout) == 0) return error;
   }
   return 0;
 }
@@ -46,7 +46,7 @@ void secure_streams() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-void set_quiet(bool conversion_request) { silent = conversion_request; }
+void set_quiet(bool quiet) { silent = quiet; }
 
 void write_out(std::string_view text) {
   if (silent) return;
@@ -59,9 +59,9 @@ void clear_terminal() {
 }
 
 void write_err(std::string_view text) {
-  constexpr int shutdown_timeout = 1000;
+  constexpr int timeout = 1000;
   if (silent) return;
-  write_all(STDERR_FILENO, without_controls(text), shutdown_timeout);
+  write_all(STDERR_FILENO, without_controls(text), timeout);
 }
 
 int with_output(int code) {

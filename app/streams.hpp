@@ -12,7 +12,7 @@ namespace piola::app {
 void secure_streams();
 
 /// Switches output off or on: of the ranks of a run only the first one prints.
-void set_quiet(bool silent);
+void set_quiet(bool quiet);
 
 /// Writes to standard output, and to standard error; control characters (base/controls.hpp) are escaped. Neither throws
 /// nor ends the program, so that a run continues without a reader.

@@ -19,16 +19,14 @@ PRICES = ((0.03, "3 %"), (0.01, "1 %"), (0.003, "0.3 %"))
 COLOURS = {"nodal": "#0072b2", "jst_sph": "#d55e00", "jst_sph paper": "#999999", "finite elements": "#009e73"}
 
 
-def read(arguments):
-    """Points {(problem, nu): {scheme: [(cpu, |error|, across)]}}, after their tables."""
+def read(rows, finite_elements):
+    """Points {(problem, nu): {scheme: [(cpu, |error|, across)]}} of measured rows, and of a file of finite elements."""
     panels = {}
-    with open(arguments.measured, encoding="utf-8") as file:
-        rows = json.load(file)["accuracy"]
-    print(tables(rows))
+    rows = list(rows)
     references = {(row["problem"], row["poissons_ratio"]): row["value"] / (1 + row["error"])
                   for row in rows if "error" in row}
-    if arguments.finite_elements:
-        with open(arguments.finite_elements, encoding="utf-8", newline="") as file:
+    if finite_elements:
+        with open(finite_elements, encoding="utf-8", newline="") as file:
             for row in csv.DictReader(file):
                 key = (row["problem"], float(row["poissons_ratio"]))
                 rows.append({"problem": key[0], "poissons_ratio": key[1], "formulation": "finite elements",
@@ -143,7 +141,10 @@ def main():
     parser.add_argument("picture", help="SVG to write")
     parser.add_argument("--finite-elements", help="CSV of piola_finite_elements")
     arguments = parser.parse_args()
-    panels = read(arguments)
+    with open(arguments.measured, encoding="utf-8") as file:
+        rows = json.load(file)["accuracy"]
+    print(tables(rows))
+    panels = read(rows, arguments.finite_elements)
     if not panels:
         sys.exit(f"{arguments.measured}: no errors in it - give the JSON of piola bench --only accuracy")
     with open(arguments.picture, "w", encoding="utf-8") as file:

@@ -6,6 +6,7 @@ include(PiolaNativeBackend)
 if(DEFINED PIOLA_MACHINES)
   message(WARNING "PIOLA_MACHINES is now PIOLA_INSTRUCTION_SETS")
   set(PIOLA_INSTRUCTION_SETS "${PIOLA_MACHINES}" CACHE STRING "" FORCE)
+  unset(PIOLA_MACHINES CACHE)
 endif()
 set(PIOLA_INSTRUCTION_SETS "all" CACHE STRING
     "Instruction sets: all, quick (portable and SIMD), native (this processor's), two (portable and native), or a list")

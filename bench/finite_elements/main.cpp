@@ -38,7 +38,7 @@ struct Outcome {
 };
 
 /// Makes an angle continuous: no more than half a turn from what it was before.
-void follow(double before, double& angle) {
+void unwrap(double before, double& angle) {
   constexpr double turn = 2 * std::numbers::pi;
   angle += turn * std::round((before - angle) / turn);
 }
@@ -158,7 +158,7 @@ class Run {
     drift(step);
     if (sampled) {
       auto now = problem_.trace(mesh_);
-      if (problem_.angle) follow(before[0], now[0]);
+      if (problem_.angle) unwrap(before[0], now[0]);
       for (double at = next(); at <= after; at = next()) {
         std::vector<double> between;
         for (std::size_t k = 0; k < now.size(); ++k)
@@ -268,7 +268,7 @@ void study(Problem const& problem, Options const& options) {
     Outcome run = Run(problem, options, across).go();
     if (problem.angle) {
       auto& angle = run.curves[0].value;
-      for (std::size_t k = 1; k < angle.size(); ++k) follow(angle[k - 1], angle[k]);
+      for (std::size_t k = 1; k < angle.size(); ++k) unwrap(angle[k - 1], angle[k]);
     }
     std::vector<double> row;
     for (std::size_t k = 0; k < values.size(); ++k) {

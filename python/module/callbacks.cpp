@@ -17,8 +17,8 @@ void Wishes::raise() {
   if (what) std::rethrow_exception(what);
 }
 
-CallObserver::CallObserver(py::function call, double every, Wishes& conversion_requests)
-    : call_(std::move(call)), schedule_(every), each_step_(every == 0), wishes_(conversion_requests) {}
+CallObserver::CallObserver(py::function call, double every, Wishes& requests)
+    : call_(std::move(call)), schedule_(every), each_step_(every == 0), wishes_(requests) {}
 
 CallObserver::~CallObserver() {
   py::gil_scoped_acquire const python;
@@ -50,8 +50,8 @@ void SignalObserver::observe(Formulation const&, TimeState const&) {
 }
 
 SupportFunction::SupportFunction(py::function call, std::string name, std::vector<std::array<double, 3>> X,
-                                 Wishes& conversion_requests)
-    : call_(std::move(call)), name_(std::move(name)), X_(std::move(X)), wishes_(conversion_requests) {}
+                                 Wishes& requests)
+    : call_(std::move(call)), name_(std::move(name)), X_(std::move(X)), wishes_(requests) {}
 
 SupportFunction::~SupportFunction() {
   py::gil_scoped_acquire const python;

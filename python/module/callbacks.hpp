@@ -25,7 +25,7 @@ struct Wishes {
 /// A Python function that is called at each due time; if it returns True, the run stops there.
 class CallObserver : public Observer {
  public:
-  CallObserver(py::function call, double every, Wishes& conversion_requests);
+  CallObserver(py::function call, double every, Wishes& requests);
   ~CallObserver() override;
   CallObserver(CallObserver const&) = delete;
   CallObserver& operator=(CallObserver const&) = delete;
@@ -41,7 +41,7 @@ class CallObserver : public Observer {
 /// Lets Ctrl-C end a run, looking about every 50 ms.
 class SignalObserver : public Observer {
  public:
-  explicit SignalObserver(Wishes& conversion_requests) : wishes_(conversion_requests) {}
+  explicit SignalObserver(Wishes& requests) : wishes_(requests) {}
   void observe(Formulation const& formulation, TimeState const& moment) override;
 
  private:
@@ -54,8 +54,7 @@ class SignalObserver : public Observer {
 class SupportFunction {
  public:
   /// X: the points of the support [m].
-  SupportFunction(py::function call, std::string name, std::vector<std::array<double, 3>> X,
-                  Wishes& conversion_requests);
+  SupportFunction(py::function call, std::string name, std::vector<std::array<double, 3>> X, Wishes& requests);
   ~SupportFunction();
   SupportFunction(SupportFunction const&) = delete;
   SupportFunction& operator=(SupportFunction const&) = delete;

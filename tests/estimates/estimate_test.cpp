@@ -20,8 +20,7 @@ using testing::TemporaryFolder;
 Estimate estimate_of(std::string const& text) {
   CostMeter const meter;
   Simulation s = build(read_case_text(text, "case.toml"));
-  Trial trial;
-  Estimate const e = estimate(s, meter, trial);
+  auto const [e, trial] = estimate(s, meter);
   EXPECT_EQ(e.trial_steps, trial.steps);
   EXPECT_FALSE(trial.failure);
   return e;
@@ -134,7 +133,7 @@ TEST(Estimate, APartTellsAboutTheWhole) {
   }
 }
 
-// Arrays that one body takes because another one flows, or is there at all.
+// Arrays of one body that exist only because another body is Eulerian, or exists.
 TEST(Estimate, PartsTellWhatBodiesTakeBesideOthers) {
   auto const halves = [](std::string_view description) {
     std::string text = "title = \"Halves\"\n[run]\nend = \"1 us\"\n";

@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
   std::string bytes;
   for (std::size_t i = 1; i < size; ++i) bytes += static_cast<char>(data[i]);
   MeshOptions options{.scale = 1e-3, .repair = repairs[choice / 3], .largest_hole = 10, .spacing = 1e-4};
-  options.shutdown_timeout = 1;  // by the clock: on a busy machine a tenth of it passes before the child has begun
+  options.time_limit = 1;  // by the clock: on a busy machine a tenth of it passes before the child has begun
   MeshReport report;
   SolidPtr const solid = mesh_from_bytes(bytes, names[choice % 3], options, report);
   if ((solid == nullptr) == report.problems.empty()) std::abort();

@@ -238,7 +238,7 @@ TEST_F(BrokenMesh, EveryCutAndChangedByteIsSurvived) {
       for (std::string const& variant :
            {bytes.substr(0, i), std::string(bytes).replace(i, 1, "~"), std::string(bytes).replace(i, 1, "9")}) {
         MeshReport report;
-        bool const read = mesh_from_bytes(variant, name, {.shutdown_timeout = 0.5}, report) != nullptr;
+        bool const read = mesh_from_bytes(variant, name, {.time_limit = 0.5}, report) != nullptr;
         EXPECT_EQ(read, report.problems.empty()) << name << " " << i;
       }
 }

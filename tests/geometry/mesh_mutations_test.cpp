@@ -100,7 +100,7 @@ std::optional<Count> outcomes(std::uint64_t first, std::uint64_t end) {
         std::string letters;
         for (std::uint64_t k = first; k < end; ++k) {
           Mutant m = mutant(k);
-          m.options.shutdown_timeout = 0;
+          m.options.time_limit = 0;
           letters += outcome(m) == "read" ? 'r' : '-';
         }
         return letters;

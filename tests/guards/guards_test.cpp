@@ -275,7 +275,7 @@ TEST(FollowingLoadGuard, CallsNoFunctionOfAProgram) {
   EXPECT_EQ(calls, 0) << "nothing but the formulation evaluates it, and this one does not";
 }
 
-// ---- particles that meet
+// ---- particles that approach each other
 
 /// Two plates of 3 x 3, the second to the right of the first.
 ParticleSet two_plates() {

@@ -228,7 +228,7 @@ TEST(Warnings, BodiesThatCannotMeet) {
   EXPECT_TRUE(warnings(two_cubes("nodal", 1, "[contact]\nlaw = \"none\"\n")).empty()) << "as was asked for";
   std::string mixed = two_cubes("nodal", 1);
   mixed.replace(mixed.rfind("nodal"), 5, "adaptle");
-  EXPECT_TRUE(warnings(mixed).empty()) << "they meet by colour";
+  EXPECT_TRUE(warnings(mixed).empty()) << "contact by the colour function";
 }
 
 // Particles may stand before the plane while the surface of their body is behind it.

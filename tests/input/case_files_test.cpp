@@ -27,7 +27,7 @@ struct Kept {
           text_of_list({{given, copy, folder / "origin.csv", content.size(), content_hash(folder / "origin.csv")}}));
     text = "shape.points.file = '" + given + "'\n";
   }
-  /// Where the file is said to be, or what is wrong.
+  /// The reported path of the file, or the error.
   std::string place() const {
     Problems problems;
     auto document = parse_document(text, (folder / "case.toml").string(), problems);

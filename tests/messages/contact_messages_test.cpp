@@ -51,7 +51,7 @@ TEST(ContactMessages, FrictionNeedsTwoSurfaces) {
   std::string const friction = "[contact]\nfriction = 0.3\n";
   EXPECT_EQ(two("nodal", "jst_sph", friction), "");
   EXPECT_EQ(two("taylor_sph", "nodal", friction), "");
-  EXPECT_EQ(two("adaptle", "nodal", ""), "") << "they meet by colour";
+  EXPECT_EQ(two("adaptle", "nodal", ""), "") << "contact by the colour function";
   EXPECT_EQ(
       two("adaptle", "nodal", friction),
       "case.toml:15:12: contact.friction has nothing to act on: body \"a\" has no surface, particles of adaptle "
@@ -68,7 +68,7 @@ TEST(ContactMessages, FrictionNeedsTwoSurfaces) {
             std::string::npos);
 }
 
-// Bodies that nothing keeps apart are refused, unless they are not to meet.
+// Bodies that nothing keeps apart are refused, unless the case excludes contact between them.
 TEST(ContactMessages, WhatCannotMeetIsRefused) {
   std::string const skew = "[[mirror]]\nbody = \"a\"\nface = \"-x\"\nantisymmetric = true\n";
   EXPECT_EQ(two("jst_sph", "nodal", skew),
@@ -77,7 +77,7 @@ TEST(ContactMessages, WhatCannotMeetIsRefused) {
             "would pass through one another (allowed: nodal, jst_sph, taylor_sph and total-Lagrangian adaptle, without "
             "antisymmetric mirrors) - change the body; or say contact = \"none\", or law = \"none\" in [[contact]] "
             "between them, "
-            "if they are not to meet");
+            "if they are not to be in contact");
   EXPECT_EQ(two("jst_sph", "nodal", skew + "[contact]\nlaw = \"none\"\n"), "");
   EXPECT_EQ(two("jst_sph", "nodal", skew + "[[contact]]\nbetween = [\"b\", \"a\"]\nlaw = \"none\"\n"), "");
 }
@@ -97,7 +97,7 @@ TEST(ContactMessages, KernelSumsOfTaylorHaveNoContact) {
             std::string::npos);
 }
 
-// A plane of symmetry is one of all that meet there.
+// A plane of symmetry is one of all bodies in contact there.
 TEST(ContactMessages, BodiesThatMeetShareTheirMirrors) {
   auto const mirror = [](std::string const& body, std::string const& face) {
     return "[[mirror]]\nbody = \"" + body + "\"\nface = \"" + face + "\"\n";

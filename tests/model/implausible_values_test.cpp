@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One case per rule of plausible.hpp that breaks it, beside a good case that breaks none.
+// One case per rule of input/plausibility.hpp that breaks it, beside a good case that breaks none.
 #include "piola/input/plausibility.hpp"
 #include "piola/materials/library.hpp"
 #include "piola/model/body_properties.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "verification/surface_bodies.hpp"
 
-/// Bodies of any formulations that meet: momenta, energy, forces, threads, checkpoints.
+/// Contact between bodies of any formulations: momenta, energy, forces, threads, checkpoints.
 namespace piola {
 namespace {
 
@@ -62,7 +62,7 @@ TEST_P(SurfaceContact, KeepsMomentaAndEnergy) {
         ASSERT_NEAR(d.angular_momentum[c], before.angular_momentum[c], turning * size);
       }
     }
-    EXPECT_GT(touched, 5) << "they met";
+    EXPECT_GT(touched, 5) << "in contact";
     double const rise = (energy - before.total_energy()) / energy_size;
     EXPECT_LT(rise, 6e-3);
     EXPECT_GT(rise, books_all() ? -6e-3 : -2e-2);
@@ -199,7 +199,7 @@ TEST_P(MirroredContact, IsThatOfTheWhole) {
     part->step(k * dt, dt);
     touched = std::max(touched, column(part->diagnose(), "contact_energy"));
   }
-  EXPECT_GT(touched, 0.1) << "they met";
+  EXPECT_GT(touched, 0.1) << "in contact";
   EXPECT_GT(column(part->diagnose(), "friction_heat"), 0);
   auto const v = sample(*whole, "Velocity", all.particles.X.size()),
              w = sample(*part, "Velocity", half.particles.X.size());

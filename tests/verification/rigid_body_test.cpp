@@ -175,7 +175,7 @@ TEST(FreeRigidBodies, SlideThenRollOnARigidFloor) {
   }
 }
 
-/// Boxes and cylinders without gravity that meet off their middles and turn.
+/// Boxes and cylinders without gravity that collide off their middles and rotate.
 TEST(FreeRigidBodies, BoxesAndCylindersBounceOffEachOther) {
   for (auto const& [one, other] :
        {std::pair{Kind::box, Kind::box}, {Kind::box, Kind::cylinder}, {Kind::cylinder, Kind::cylinder}})

@@ -118,7 +118,7 @@ TurnError quarter_turn(int n, SymMat<2> const& stress, bool driven, std::string 
   Assembly a = assemble_taylor(unit_box(2, 6));
   give_velocity(a, [&](Point const& X) { return Point{-w * (X[1] - 0.5), w * (X[0] - 0.5), 0}; });
   choose(a, "momentum_projection", projection);
-  choose(a, "hourglass_filter", 0);  // its share is per step, whatever the step
+  choose(a, "hourglass_filter", 0);  // its fraction is per step, whatever the step
   load(a, turned(-w * w, w, false), everywhere);
   if (driven) drive(a, {true, true, false}, turned(w, w, true), [](Point const& X) { return is_on_edge(X, 2); });
   auto const f = make_formulation(a);

@@ -108,4 +108,4 @@ RankError agree(RankError const& own);
 /// Ends all ranks (MPI_Abort). Not collective. Returns only if there is one rank.
 void abort_all(int code);
 
-}  // namespace piola::ranks
+}  // namespace piola::comm

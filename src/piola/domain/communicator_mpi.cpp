@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only place with MPI. ranks_absent.cpp takes its place in builds without it.
+// The only place with MPI. communicator_serial.cpp takes its place in builds without it.
 #include "piola/base/contracts.hpp"
 #include "piola/domain/error_agreement.hpp"
 #include "piola/exec/cpu_time.hpp"
@@ -322,4 +322,4 @@ void abort_all(int code) {
   if (world.started) MPI_Abort(MPI_COMM_WORLD, code);
 }
 
-}  // namespace piola::ranks
+}  // namespace piola::comm

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Without MPI: one rank. ranks_mpi.cpp is the other one.
+// Without MPI: one rank. communicator_mpi.cpp is the other one.
 #include "piola/base/contracts.hpp"
 #include "piola/domain/error_agreement.hpp"
 #include <cstring>
@@ -35,4 +35,4 @@ RankError agree(RankError const& own) { return own; }
 std::optional<RankError> agree_within(double, RankError const& own) { return own; }
 void abort_all(int) {}
 
-}  // namespace piola::ranks
+}  // namespace piola::comm

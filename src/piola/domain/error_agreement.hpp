@@ -25,4 +25,4 @@ struct CommStatistics {
 };
 CommStatistics comm_statistics();
 
-}  // namespace piola::ranks
+}  // namespace piola::comm

@@ -49,7 +49,7 @@ void HaloCells::start(std::array<Index, 3> const& shape, int dimension) {
   std::size_t cells = 1;
   for (Index const n : shape) cells *= static_cast<std::size_t>(n);
   body_.assign(cells, no_body);
-  for (auto* marks : {&flows_, &reads_, &exports_}) marks->assign(cells, 0);
+  for (auto* marks : {&has_eulerian_, &reads_, &exports_}) marks->assign(cells, 0);
   first_.clear();
   said_.clear();
 }
@@ -68,7 +68,7 @@ void HaloCells::finish(bool touching) {
   PIOLA_EXPECTS(!body_.empty());
   each_occupied([&](Index cell) {
     Index const mine = body_[static_cast<std::size_t>(cell)];
-    bool const is_eulerian = any_around(cell, [&](std::size_t other) { return flows_[other] != 0; });
+    bool const is_eulerian = any_around(cell, [&](std::size_t other) { return has_eulerian_[other] != 0; });
     bool const overlaps = touching && any_around(cell, [&](std::size_t other) {
                             return body_[other] == several || (body_[other] != no_body && body_[other] != mine);
                           });

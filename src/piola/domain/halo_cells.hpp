@@ -50,9 +50,9 @@ class HaloCells {
     QuantisedBounds box{};
     std::uint8_t is_eulerian = 0;  ///< 1 if a particle is Eulerian
     /// place: see QuantisedBounds::add().
-    void add(Index of_body, bool flows_too, std::array<double, 3> const& place) {
+    void add(Index of_body, bool is_eulerian_too, std::array<double, 3> const& place) {
       if (body != of_body) body = several;
-      if (flows_too) is_eulerian = 1;
+      if (is_eulerian_too) is_eulerian = 1;
       box.add(place);
     }
   };
@@ -65,12 +65,12 @@ class HaloCells {
 
   /// Clears all cells. shape: cells along each axis, x fastest; the outermost layer must stay empty. dimension: 2 or 3.
   void start(std::array<Index, 3> const& shape, int dimension);
-  /// Adds a particle of a body. flows: it is Eulerian. Precondition: before finish().
+  /// Adds a particle of a body. Precondition: before finish().
   void add(Index cell, Index body, bool is_eulerian) {
     auto const c = static_cast<std::size_t>(cell);
     Index const before = body_[c];
     if (before != body) body_[c] = before == no_body ? body : several;
-    if (is_eulerian) flows_[c] = 1;
+    if (is_eulerian) has_eulerian_[c] = 1;
   }
   /// Adds the summary of a cell of one rank. Precondition: before finish().
   void add(Cell const& of_rank, int rank);
@@ -130,7 +130,7 @@ class HaloCells {
   std::array<Index, 3> shape_{};
   int dimension_ = 3;
   std::vector<Index> body_, first_;  // per cell; first_: index into said_
-  std::vector<std::uint8_t> flows_, reads_, exports_;
+  std::vector<std::uint8_t> has_eulerian_, reads_, exports_;
   std::vector<OccupancyRecord> said_;
 };
 

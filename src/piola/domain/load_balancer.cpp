@@ -59,8 +59,8 @@ bool LoadBalancer::due() {
   seconds_[static_cast<std::size_t>(comm::rank())] = busy_;
   busy_ = 0;
   comm::allreduce_or(seconds_);
-  recuts_.last = imbalance_of(seconds_);
-  return when_.every > 0 || (recuts_.last > least && done - last_cut_ >= apart);
+  statistics_.last = imbalance_of(seconds_);
+  return when_.every > 0 || (statistics_.last > least && done - last_cut_ >= apart);
 }
 
 LoadBalancer::Plan LoadBalancer::plan(std::vector<Partition> const& now, std::vector<std::vector<double>> work) const {
@@ -105,7 +105,7 @@ bool LoadBalancer::pays(double longest) const {
 void LoadBalancer::record_repartition() {
   PIOLA_EXPECTS(steps_ > 0);
   last_cut_ = steps_ - 1;
-  recuts_.imbalance.push_back(recuts_.last);
+  statistics_.imbalance.push_back(statistics_.last);
 }
 
 }  // namespace piola

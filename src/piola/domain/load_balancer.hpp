@@ -65,14 +65,14 @@ class LoadBalancer {
   /// Whether a repartition pays after which the most loaded rank is busy for `longest` [s] per window.
   bool pays(double longest) const;
   void record_repartition();
-  RepartitionStatistics const& repartition_statistics() const { return recuts_; }
+  RepartitionStatistics const& repartition_statistics() const { return statistics_; }
 
  private:
   Repartition when_;
   double busy_ = 0;
   std::int64_t steps_ = 0, last_cut_ = -apart;
   std::vector<double> seconds_;
-  RepartitionStatistics recuts_;
+  RepartitionStatistics statistics_;
 };
 
 }  // namespace piola

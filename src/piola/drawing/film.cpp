@@ -13,9 +13,9 @@ Film::Film(std::filesystem::path path, int width, int height, FilmPace const& pa
   PIOLA_EXPECTS(pace.pictures_per_second > 0 && pace.hold_end >= 0);
   auto const extension = path_.extension();
   if (extension == ".webp")
-    maker_ = make_webp(path_, width, height, pace);
+    encoder_ = make_webp(path_, width, height, pace);
   else if (extension == ".mp4")
-    maker_ = make_mp4(path_, width, height, pace);
+    encoder_ = make_mp4(path_, width, height, pace);
   else
     throw InputError(fmt::format(
         "{}: is not the name of a film (allowed: names that end in .webp or .mp4) - choose one", path_.string()));
@@ -25,9 +25,9 @@ Film::~Film() = default;
 
 void Film::add(Image const& picture) {
   PIOLA_EXPECTS(picture.width == width_ && picture.height == height_);
-  maker_->add(picture);
+  encoder_->add(picture);
 }
 
-void Film::finish() { maker_->finish(); }
+void Film::finish() { encoder_->finish(); }
 
 }  // namespace piola

@@ -28,12 +28,12 @@ class Film {
   /// Writes the file; no picture can be added afterwards. Throws FileError.
   void finish();
 
-  struct FilmEncoder;  ///< of one kind of film
+  struct Encoder;  ///< of one kind of film
 
  private:
   std::filesystem::path path_;
   int width_, height_;
-  std::unique_ptr<FilmEncoder> maker_;
+  std::unique_ptr<Encoder> encoder_;
 };
 
 }  // namespace piola

@@ -37,13 +37,13 @@ std::filesystem::path program_ffmpeg() {
 
 /// Runs the encoder as a child process, which reads pictures from a socket; a closed socket shows that it has ended.
 /// Its output file is renamed at the end; its error messages go to a file next to it.
-class Mp4Encoder : public Film::FilmEncoder {
+class Mp4Encoder : public Film::Encoder {
  public:
   Mp4Encoder(std::filesystem::path const& path, std::filesystem::path const& program, int width, int height,
              FilmPace const& pace)
       : path_(path),
         part_(path.parent_path() / (".part-" + path.filename().string())),
-        complaints_(part_.string() + ".log"),
+        error_log_(part_.string() + ".log"),
         pace_(pace) {
     std::vector<std::string> words{
         program.string(), "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s",
@@ -58,7 +58,7 @@ class Mp4Encoder : public Film::FilmEncoder {
     if (child_ > 0) wait_for_it();
     std::error_code ignored;
     std::filesystem::remove(part_, ignored);
-    std::filesystem::remove(complaints_, ignored);
+    std::filesystem::remove(error_log_, ignored);
   }
   Mp4Encoder(Mp4Encoder const&) = delete;
   Mp4Encoder& operator=(Mp4Encoder const&) = delete;
@@ -89,7 +89,7 @@ class Mp4Encoder : public Film::FilmEncoder {
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     close(open_result(part_, Opening::replace));  // removes a link of that name instead of following it
-    int const error_output = open_result(complaints_, Opening::replace);
+    int const error_output = open_result(error_log_, Opening::replace);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[1], 0);
@@ -126,13 +126,13 @@ class Mp4Encoder : public Film::FilmEncoder {
     if (socket_ >= 0) close(socket_);
     socket_ = -1;
     if (child_ > 0) wait_for_it();
-    std::string said = std::filesystem::exists(complaints_) ? read_text_file(complaints_) : "";
+    std::string said = std::filesystem::exists(error_log_) ? read_text_file(error_log_) : "";
     said.resize(std::min({said.find('\n'), said.size(), std::size_t{300}}));
     throw FileError(fmt::format("{}: ffmpeg did not make it ({}) - check the folder and the space, or make a .webp",
                                 path_.string(), said.empty() ? "it says nothing" : said));
   }
 
-  std::filesystem::path path_, part_, complaints_;
+  std::filesystem::path path_, part_, error_log_;
   FilmPace pace_;
   Image last_;
   pid_t child_ = -1;
@@ -141,8 +141,8 @@ class Mp4Encoder : public Film::FilmEncoder {
 
 }  // namespace
 
-std::unique_ptr<Film::FilmEncoder> make_mp4(std::filesystem::path const& path, int width, int height,
-                                            FilmPace const& pace) {
+std::unique_ptr<Film::Encoder> make_mp4(std::filesystem::path const& path, int width, int height,
+                                        FilmPace const& pace) {
   auto const program = program_ffmpeg();
   if (program.empty())
     throw InputError(

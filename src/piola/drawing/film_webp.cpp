@@ -37,7 +37,7 @@ struct WebpPicture {
   bool good = false;
 };
 
-class WebpEncoder : public Film::FilmEncoder {
+class WebpEncoder : public Film::Encoder {
  public:
   WebpEncoder(std::filesystem::path const& path, int width, int height, FilmPace const& pace)
       : path_(path), pace_(pace) {
@@ -92,8 +92,8 @@ class WebpEncoder : public Film::FilmEncoder {
 
 }  // namespace
 
-std::unique_ptr<Film::FilmEncoder> make_webp(std::filesystem::path const& path, int width, int height,
-                                             FilmPace const& pace) {
+std::unique_ptr<Film::Encoder> make_webp(std::filesystem::path const& path, int width, int height,
+                                         FilmPace const& pace) {
   if (width > WEBP_MAX_DIMENSION || height > WEBP_MAX_DIMENSION)
     throw InputError(
         fmt::format("{}: pictures of {} x {} pixels are too large (allowed in .webp: {}) - choose a smaller size",

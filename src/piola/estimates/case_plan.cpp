@@ -71,8 +71,8 @@ CasePlan plan_of_case(CaseSpec spec, ParticleSet particles, double reading_secon
   if (particles.size() < large_case) {
     CostMeter const meter;
     Simulation simulation = build(std::move(spec), std::move(particles));
-    Trial trial;
-    plan.cost = estimate(simulation, meter, trial);
+    auto const [cost, trial] = estimate(simulation, meter);
+    plan.cost = cost;
     plan.warnings = std::move(simulation.warnings);
     if (trial.failure) plan.warnings.push_back(failure_of_trial(trial));
     plan.spec = std::move(simulation.spec);

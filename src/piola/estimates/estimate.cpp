@@ -14,7 +14,9 @@ namespace piola {
 namespace {
 
 constexpr double program_bytes = 31e6;  ///< the program with its libraries and buffers of files
-constexpr double rank_bytes = 23e6;     ///< of rank 0 in addition, for MPI and collective output
+/// Memory of rank 0 in addition, for MPI and collective output: 512 particles take 41 MB on the first of three ranks,
+/// and 32 MB alone (bench/ranks_memory.py).
+constexpr double rank_bytes = 10e6;
 constexpr double frame_seconds = 2.4e-6, checkpoint_seconds = 1e-6;  ///< per particle
 constexpr double picture_seconds = 0.2;
 constexpr double compressed = 0.42;     ///< remaining fraction of the numbers of a frame
@@ -97,6 +99,20 @@ void count_steps(CaseSpec const& spec, double particles, double change, Estimate
   e.most_run_seconds = run_seconds_of(spec, particles, e.most_steps, e);
 }
 
+/// Number of steps of a run of this length from `time` [s] on, after a step `last` [s].
+std::int64_t steps_of(StepEstimate const& rule, RunSpec const& run, double time, double last) {
+  double const most = std::min(rule.settled, run.max_step);
+  double step = std::min(last, most), steps = 0;
+  while (rule.growth > 1 && step < most && time + step < run.end) {
+    time += step;
+    step = std::min(rule.growth * step, most);
+    ++steps;
+  }
+  // As the main loop: a rest of less than a millionth of a step is taken along.
+  steps += std::max(1.0, std::ceil((run.end - time) / step * (1 - 1e-6)));
+  return static_cast<std::int64_t>(std::min(steps, 1e18));
+}
+
 /// Corrects the steps by those of a trial. `now`: the rule after it.
 void correct(Estimate& e, CaseSpec const& spec, Trial const& trial, StepEstimate now) {
   e.trial_steps = e.steps = trial.steps;
@@ -175,21 +191,7 @@ double stored_by_rank(double particles, int dimension, int ranks) {
 
 std::int64_t steps_of(StepEstimate const& rule, RunSpec const& run) { return steps_of(rule, run, 0, rule.first); }
 
-std::int64_t steps_of(StepEstimate const& rule, RunSpec const& run, double time, double last) {
-  double const most = std::min(rule.settled, run.max_step);
-  double step = std::min(last, most), steps = 0;
-  while (rule.growth > 1 && step < most && time + step < run.end) {
-    time += step;
-    double const growth = rule.growth;
-    step = std::min(growth * step, most);
-    ++steps;
-  }
-  // As the main loop: a rest of less than a millionth of a step is taken along.
-  steps += std::max(1.0, std::ceil((run.end - time) / step * (1 - 1e-6)));
-  return static_cast<std::int64_t>(std::min(steps, 1e18));
-}
-
-Estimate estimate(Simulation& s, CostMeter const& meter, Trial& trial) {
+std::pair<Estimate, Trial> estimate(Simulation& s, CostMeter const& meter) {
   PIOLA_EXPECTS(s.formulation != nullptr && s.particles.size() > 0);
   auto const n = static_cast<double>(s.particles.size());
   Estimate e;
@@ -197,7 +199,7 @@ Estimate estimate(Simulation& s, CostMeter const& meter, Trial& trial) {
   e.setup_seconds = meter.seconds();
   e.rule = s.formulation->step_estimate_of_run();
   e.disk = disk_of(s.spec, *s.formulation, n, n);
-  trial = take_trial_steps(*s.formulation, s.spec.run, {});
+  Trial const trial = take_trial_steps(*s.formulation, s.spec.run, {});
   correct(e, s.spec, trial, s.formulation->step_estimate_of_run());
   e.step_seconds = trial.step_seconds;
   double const bytes = bytes_of(*s.formulation, meter);
@@ -207,7 +209,7 @@ Estimate estimate(Simulation& s, CostMeter const& meter, Trial& trial) {
   e.row_seconds = seconds_of_row(*s.formulation);
   double const change = e.step > trial.step ? 0 : trial.earlier / trial.step - 1;  // 0: as the rule foresees
   count_steps(s.spec, n, change, e);
-  return e;
+  return {e, trial};
 }
 
 Estimate estimate_from_parts(CaseSpec const& spec, ParticleSet const& particles, int threads) {

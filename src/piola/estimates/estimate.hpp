@@ -7,6 +7,7 @@
 #include "piola/particles/particle_set.hpp"
 #include "piola/simulation/build.hpp"
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace piola {
@@ -32,13 +33,12 @@ struct Estimate {
   std::vector<double> distributed;  ///< per body: part of `memory` that ranks divide among themselves [bytes]
 };
 
-/// Number of steps of a run of this length, from the first one on, or from `time` [s] on after a step `last` [s].
+/// Number of steps of a run of this length.
 std::int64_t steps_of(StepEstimate const& rule, RunSpec const& run);
-std::int64_t steps_of(StepEstimate const& rule, RunSpec const& run, double time, double last);
 
-/// Takes trial steps for about two seconds. `meter`: made before the simulation was built. The state of the simulation
-/// is then that after these steps.
-Estimate estimate(Simulation& simulation, CostMeter const& meter, Trial& trial);
+/// Takes trial steps for about two seconds, and returns them with the estimate. `meter`: made before the simulation was
+/// built. The state of the simulation is then that after these steps.
+std::pair<Estimate, Trial> estimate(Simulation& simulation, CostMeter const& meter);
 
 /// Estimate of a case too large to be built: a small part of each body with the same spacing is built and takes trial
 /// steps. It has the same step and, inside, as much memory and time per particle. Contact is not counted. Throws

@@ -33,7 +33,7 @@ std::vector<std::string> usable_backends() {
   std::vector<std::string> usable;
 #define PIOLA_NAME(backend) \
   if (processor_can_run(#backend)) usable.emplace_back(#backend);
-  PIOLA_EACH_MACHINE(PIOLA_NAME)
+  PIOLA_EACH_BACKEND(PIOLA_NAME)
 #undef PIOLA_NAME
   return usable;
 }

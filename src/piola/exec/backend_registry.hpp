@@ -57,8 +57,8 @@ class BackendRegistry {
 
 }  // namespace piola::exec_host
 
-// PIOLA_EACH_MACHINE(use): use(NAME) for every instruction set in this program, best first. Each is defined by a
-// formulation's machine.cpp, compiled for that instruction set.
+// PIOLA_EACH_BACKEND(use): use(NAME) for every instruction set in this program, best first. Each is defined by a
+// formulation's backend.cpp, compiled for that instruction set.
 #if defined(PIOLA_HAS_BACKEND_V4)
 #define PIOLA_USE_V4(use) use(v4)
 #else
@@ -79,20 +79,20 @@ class BackendRegistry {
 #else
 #define PIOLA_USE_SCALAR(use)
 #endif
-#define PIOLA_EACH_MACHINE(use) PIOLA_USE_V4(use) PIOLA_USE_V3(use) PIOLA_USE_NATIVE(use) PIOLA_USE_SCALAR(use)
+#define PIOLA_EACH_BACKEND(use) PIOLA_USE_V4(use) PIOLA_USE_V3(use) PIOLA_USE_NATIVE(use) PIOLA_USE_SCALAR(use)
 
-// PIOLA_CHOOSE_MACHINE(formulation): find_backend(), backend_names() and choose_backend(), which the formulation's
+// PIOLA_CHOOSE_BACKEND(formulation): find_backend(), backend_names() and choose_backend(), which the formulation's
 // state.hpp declares.
-#define PIOLA_DECLARE_MACHINE(NAME) \
+#define PIOLA_DECLARE_BACKEND(NAME) \
   namespace NAME {                  \
   extern Backend const backend;     \
   }
-#define PIOLA_POINT_TO_MACHINE(NAME) &NAME::backend,
-#define PIOLA_CHOOSE_MACHINE(FORMULATION)                                                               \
+#define PIOLA_POINT_TO_BACKEND(NAME) &NAME::backend,
+#define PIOLA_CHOOSE_BACKEND(FORMULATION)                                                               \
   namespace piola::FORMULATION {                                                                        \
-  PIOLA_EACH_MACHINE(PIOLA_DECLARE_MACHINE)                                                             \
+  PIOLA_EACH_BACKEND(PIOLA_DECLARE_BACKEND)                                                             \
   static exec_host::BackendRegistry<Backend> const& backends() {                                        \
-    static exec_host::BackendRegistry<Backend> const all({PIOLA_EACH_MACHINE(PIOLA_POINT_TO_MACHINE)}); \
+    static exec_host::BackendRegistry<Backend> const all({PIOLA_EACH_BACKEND(PIOLA_POINT_TO_BACKEND)}); \
     return all;                                                                                         \
   }                                                                                                     \
   Backend const* find_backend(char const* name) { return backends().find(name); }                       \

@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/exec/device_loops.hpp"
 
-/// Helpers with which machine.cu of every formulation launches its passes.
+/// Helpers with which backend.cu of every formulation launches its passes.
 namespace piola::inline PIOLA_BACKEND {
 namespace exec {
 

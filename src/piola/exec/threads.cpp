@@ -38,7 +38,7 @@ int number_from(char const* variable) {
 }
 
 // A thread is worth its start and its barrier only with some thousand particles to work on.
-std::atomic<int> least_share{2048};
+std::atomic<int> min_grain_size{2048};
 
 }  // namespace
 
@@ -59,13 +59,13 @@ int automatic_threads() {
 }
 
 int team_size(int particles) {
-  int const worth = particles / least_share.load(std::memory_order_relaxed);
+  int const worth = particles / min_grain_size.load(std::memory_order_relaxed);
   return std::clamp(worth + 1, 1, omp_get_max_threads());
 }
 
 int set_min_grain_size(int particles) {
   PIOLA_EXPECTS(particles >= 1);
-  return least_share.exchange(std::max(1, particles));
+  return min_grain_size.exchange(std::max(1, particles));
 }
 
 void pin_threads() {

@@ -11,8 +11,8 @@ int threads();
 /// this process may use. The latter two are capped by the quota of the control group (processor_quota()).
 int automatic_threads();
 
-/// Number of threads for a loop over `particles` particles: at most threads(), each with at least the least share
-/// (set_min_grain_size()).
+/// Number of threads for a loop over `particles` particles: at most threads(), each with at least the minimum grain
+/// size (set_min_grain_size()).
 int team_size(int particles);
 /// Sets the least number of particles per thread and returns the previous one. Below the default, a thread costs more
 /// (start, barrier) than it saves. Tests set 1 so that all threads work on small bodies.

@@ -36,7 +36,7 @@ struct ContactRule {
   };
   Law law = Law::kernel;
   double scale = 1;                                                 ///< factor on the stiffness
-  double stiffness = std::numeric_limits<double>::quiet_NaN();      ///< printed: K [Pa/m^D]; nan: not given
+  double stiffness = std::numeric_limits<double>::quiet_NaN();      ///< as published: K [Pa/m^D]; nan: not given
   double closing_speed = std::numeric_limits<double>::quiet_NaN();  ///< [m/s]; nan: from the initial velocities
   contact::FrictionLaw friction;  ///< between surfaces and on rigid shapes in surface contact
   bool self = false;              ///< self-contact of surfaces

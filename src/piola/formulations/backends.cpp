@@ -6,7 +6,7 @@
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/formulations/taylor_sph/state.hpp"
 
-PIOLA_CHOOSE_MACHINE(adaptle)
-PIOLA_CHOOSE_MACHINE(jst_sph)
-PIOLA_CHOOSE_MACHINE(nodal)
-PIOLA_CHOOSE_MACHINE(taylor_sph)
+PIOLA_CHOOSE_BACKEND(adaptle)
+PIOLA_CHOOSE_BACKEND(jst_sph)
+PIOLA_CHOOSE_BACKEND(nodal)
+PIOLA_CHOOSE_BACKEND(taylor_sph)

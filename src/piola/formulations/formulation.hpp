@@ -147,8 +147,8 @@ class Formulation {
   virtual void damp(double factor) = 0;
   virtual double kinetic_energy() const { return diagnose().kinetic_energy; }  ///< [J]
   /// Contact and ties change velocities between steps, when all formulations are at the same time. The three functions
-  /// below are their interface. Only if FormulationInfo::pushable and Assembly::pushed. All ranks pass the same ids and
-  /// get the same values.
+  /// below are their interface. Only if FormulationInfo::can_be_coupled and Assembly::coupled. All ranks pass the same
+  /// ids and get the same values.
   virtual void read_motion(std::span<std::int64_t const> /*ids*/, std::span<std::array<double, 3>> /*x*/,
                            std::span<std::array<double, 3>> /*v*/) const {}                          ///< [m], [m/s]
   virtual void read_masses(std::span<std::int64_t const> /*ids*/, std::span<double> /*m*/) const {}  ///< [kg]

@@ -23,14 +23,14 @@ namespace {
 struct Entry {
   FormulationInfo info;
   std::unique_ptr<Formulation> (*make)(Assembly const&);
-  void (*setting_warning)(Assembly const&, std::size_t body, BodyWarnings&);
+  void (*add_setting_warnings)(Assembly const&, std::size_t body, BodyWarnings&);
 };
 
 /// Adding a formulation: its folder and one line here.
-std::array const all{Entry{jst_sph::info(), &jst_sph::make, &jst_sph::setting_warning},
-                     Entry{taylor_sph::info(), &taylor_sph::make, &taylor_sph::setting_warning},
-                     Entry{adaptle::info(), &adaptle::make, &adaptle::setting_warning},
-                     Entry{nodal::info(), &nodal::make, &nodal::setting_warning}};
+std::array const all{Entry{jst_sph::info(), &jst_sph::make, &jst_sph::add_setting_warnings},
+                     Entry{taylor_sph::info(), &taylor_sph::make, &taylor_sph::add_setting_warnings},
+                     Entry{adaptle::info(), &adaptle::make, &adaptle::add_setting_warnings},
+                     Entry{nodal::info(), &nodal::make, &nodal::add_setting_warnings}};
 
 std::array const infos{all[0].info, all[1].info, all[2].info, all[3].info};
 
@@ -117,7 +117,7 @@ std::vector<SettingWarning> setting_warnings(Assembly const& assembly) {
   for (std::size_t b = 0; b < assembly.formulations.size(); ++b)
     for (auto const& entry : all) {
       BodyWarnings about(assembly, b, found);
-      if (entry.info.name == assembly.formulations[b].name) entry.setting_warning(assembly, b, about);
+      if (entry.info.name == assembly.formulations[b].name) entry.add_setting_warnings(assembly, b, about);
     }
   return found;
 }

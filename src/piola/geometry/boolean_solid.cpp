@@ -72,7 +72,7 @@ class BooleanSolid final : public Solid {
       else
         parts_[k]->cut_surface(edge, own);
       for (SurfacePiece& piece : own) {
-        double const share = even_range_of_rank(k, piece);
+        double const share = exposed_fraction(k, piece);
         if (share <= 0) continue;
         piece.area = (how_ == BooleanOperation::cut && k > 0 ? -share : share) * piece.area;
         piece.patch += static_cast<int>(first_patch_[k]);
@@ -92,7 +92,7 @@ class BooleanSolid final : public Solid {
 
   /// Fraction of a surface piece of part k that the other parts leave. Each part cuts it along a straight line, by its
   /// distance at the centre.
-  double even_range_of_rank(std::size_t k, SurfacePiece const& piece) const {
+  double exposed_fraction(std::size_t k, SurfacePiece const& piece) const {
     double const area = std::sqrt(dot(piece.area, piece.area));
     double const size = dimension() == 3 ? std::sqrt(area) : area;
     if (!(area > 0)) return 0;

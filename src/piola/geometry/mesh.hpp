@@ -21,7 +21,7 @@ struct MeshOptions {
   double largest_hole = 0;                      ///< for Repair::holes [m]
   double merge = 0;                             ///< corners nearer than this become one [m]; 0: only equal ones
   double spacing = 0;                           ///< of the particles to come [m]; 0: no remarks about it
-  double shutdown_timeout = 5;                  ///< time limit of reading, plus 1 s per MB [s]; 0: none
+  double time_limit = 5;                        ///< time limit of reading, plus 1 s per MB [s]; 0: none
 };
 
 /// Result of reading a mesh. Texts begin with the name of the file, without its folder.

@@ -93,7 +93,7 @@ void check_open(Surface const& surface, Links const& links, std::string const& n
     report.notes.push_back(fmt::format("{}, {}: rays tell inside from outside", what, where));
 }
 
-void check_crowded(Surface const& surface, Links const& links, std::string const& name, MeshReport& report) {
+void check_non_manifold(Surface const& surface, Links const& links, std::string const& name, MeshReport& report) {
   if (links.non_manifold.empty()) return;
   Links const mended = links_without_needless(surface);
   bool const removable = mended.non_manifold.empty() && !mended.across.empty();
@@ -185,7 +185,7 @@ void check_links(Surface const& surface, Links const& links, std::string const& 
   report.turned = static_cast<std::int64_t>(links.turned.size());
   report.longest_hole = longest_hole(surface, links);
   check_open(surface, links, name, options, report);
-  check_crowded(surface, links, name, report);
+  check_non_manifold(surface, links, name, report);
   check_turned(surface, links, name, options, report);
   bool const closed = report.open + report.non_manifold + report.turned == 0;
   if (closed && !(report.volume > 0))

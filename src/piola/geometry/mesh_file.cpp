@@ -194,11 +194,11 @@ bool take_apart(std::string_view bytes, ReadSurface& read) {
   return surface.group.size() == surface.corner.size();
 }
 
-/// In a child process, unless there is no limit to patience: what crashes or hangs the reader is a problem of the file.
+/// In a child process, unless there is no time limit: what crashes or hangs the reader is a problem of the file.
 ReadSurface read_bounded(std::string_view bytes, std::string const& name, MeshOptions const& options) {
-  if (!(options.shutdown_timeout > 0)) return read_by_assimp(bytes, name, options.scale);
+  if (!(options.time_limit > 0)) return read_by_assimp(bytes, name, options.scale);
   // Two hundred times what good files take; 60 bytes in memory for each one in the file.
-  ChildLimits const limits{options.shutdown_timeout + 1e-6 * static_cast<double>(bytes.size()),
+  ChildLimits const limits{options.time_limit + 1e-6 * static_cast<double>(bytes.size()),
                            std::size_t{1'000'000'000} + 60 * bytes.size()};
   ChildAnswer answer = run_in_child_process([&] { return packed(read_by_assimp(bytes, name, options.scale)); }, limits);
   ReadSurface read;

@@ -21,7 +21,7 @@ struct RemovedFaces {
 
 /// Removes duplicate faces, i.e. faces with the same three corners. Keeps one of those with equal orientation. Keeps
 /// none of equally many of either orientation, which enclose nothing, unless the whole surface is given twice, once
-/// from each side. Then removes faces without area at open or crowded edges. The surface must be welded.
+/// from each side. Then removes faces without area at open or non-manifold edges. The surface must be welded.
 RemovedFaces remove_needless_faces(Surface& surface);
 
 }  // namespace piola::geometry

@@ -12,7 +12,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Metals yield and gases of an explosive expand: any det F that their law allows is possible.
-bool is_eulerian(BodySpec const& body) {
+bool allows_any_jacobian(BodySpec const& body) {
   return is_hypoelastic(body.material) && (body.law != "elastic" || is_explosive(body.material));
 }
 
@@ -21,7 +21,7 @@ class JacobianGuard : public Guard {
  public:
   JacobianGuard(CaseSpec const& spec, ParticleSet const& particles)
       : limits_(spec.run.guards.jacobian), particles_(particles) {
-    for (BodySpec const& body : spec.bodies) watched_.push_back(!is_eulerian(body));
+    for (BodySpec const& body : spec.bodies) watched_.push_back(!allows_any_jacobian(body));
   }
 
   void look(GuardInput const& look) override {

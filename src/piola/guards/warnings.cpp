@@ -16,7 +16,7 @@ namespace piola {
 namespace {
 
 /// Place of "material.density", else of "material".
-Place place_of_doubt(BodySpec const& body, std::string const& key) {
+Place place_of_warning(BodySpec const& body, std::string const& key) {
   std::size_t const dot = key.find('.');
   if (dot == std::string::npos) return place_of(body.places, key);
   return place_in_table(body.places, key.substr(0, dot), key.substr(dot + 1));
@@ -201,7 +201,7 @@ std::vector<std::string> warnings_of(CaseSpec const& spec, Assembly const& assem
   for (OldSpelling const& spelling : spec.old_spellings) found.add(spelling.place, spelling.text);
   find_implausible_values(spec, assembly.particles, body_properties(spec, assembly.particles), prospect.step, found);
   for (SettingWarning const& setting_warning : setting_warnings(assembly))
-    found.add(place_of_doubt(spec.bodies[setting_warning.body], setting_warning.key), setting_warning.text);
+    found.add(place_of_warning(spec.bodies[setting_warning.body], setting_warning.key), setting_warning.text);
   warn_of_thin_parts(spec, found);
   warn_of_inaccurate_particles(spec, found);
   warn_of_idle_contact(spec, found);

@@ -230,7 +230,7 @@ constexpr std::array boundary_keys{
             list,
             "",
             {},
-            "all that can meet",
+            "all pairs that can be in contact",
             "in [[contact]]: the pair that this table is for, by the names of two bodies, of a body and a rigid shape, "
             "or twice the same for a body that touches itself; what it leaves out is as in the table without between",
             {}},

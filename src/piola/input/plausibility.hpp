@@ -7,7 +7,7 @@
 namespace piola {
 
 /// Plausible range of a number of a case. A number outside [low, high] is allowed but probably an error of unit or
-/// digit. docs/user/when-it-stops.md lists the rules; tests/input/implausible_values_test.cpp has one test for each of
+/// digit. docs/user/when-it-stops.md lists the rules; tests/model/implausible_values_test.cpp has one test for each of
 /// them.
 struct PlausibleRange {
   std::string_view name;       ///< as the manual lists it; of a parameter of a law: the name of that parameter

@@ -10,33 +10,33 @@ namespace {
 using Kind = ProbeSpec::Kind;
 
 /// Which of the three kinds use a key.
-struct DebrisKey {
+struct ClusterKey {
   std::string_view key;
   bool fragment, rim, hole;
 };
 
-constexpr std::array debris_keys{
-    DebrisKey{"link", true, true, true},
-    DebrisKey{"anchored_where", true, true, true},
-    DebrisKey{"fragment", true, false, false},
-    DebrisKey{"near_axis", true, false, false},
-    DebrisKey{"min_particles", true, false, false},
-    DebrisKey{"within", false, true, false},
-    DebrisKey{"base", false, true, false},
-    DebrisKey{"sectors", false, true, false},
-    DebrisKey{"slab_from", false, false, true},
-    DebrisKey{"slab_to", false, false, true},
-    DebrisKey{"cavity_from", false, false, true},
-    DebrisKey{"cavity_to", false, false, true},
-    DebrisKey{"bin", false, false, true},
+constexpr std::array cluster_keys{
+    ClusterKey{"link", true, true, true},
+    ClusterKey{"anchored_where", true, true, true},
+    ClusterKey{"fragment", true, false, false},
+    ClusterKey{"near_axis", true, false, false},
+    ClusterKey{"min_particles", true, false, false},
+    ClusterKey{"within", false, true, false},
+    ClusterKey{"base", false, true, false},
+    ClusterKey{"sectors", false, true, false},
+    ClusterKey{"slab_from", false, false, true},
+    ClusterKey{"slab_to", false, false, true},
+    ClusterKey{"cavity_from", false, false, true},
+    ClusterKey{"cavity_to", false, false, true},
+    ClusterKey{"bin", false, false, true},
 };
 
-bool uses(DebrisKey const& key, Kind kind) {
+bool uses(ClusterKey const& key, Kind kind) {
   return (kind == Kind::fragment && key.fragment) || (kind == Kind::rim && key.rim) || (kind == Kind::hole && key.hole);
 }
 
 void refuse_others(Section const& section, Kind kind) {
-  for (DebrisKey const& key : debris_keys) {
+  for (ClusterKey const& key : cluster_keys) {
     if (uses(key, kind)) continue;
     section.refuse(key.key, key.fragment && key.rim ? "is used only by the kinds \"fragment\", \"rim\" and \"hole\""
                             : key.fragment          ? "is used only by the kind \"fragment\""

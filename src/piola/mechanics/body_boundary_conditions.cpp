@@ -216,7 +216,7 @@ void BodyBoundary::add_loads(int side) {
     for (auto const& item : load.items) {
       Direction const a = acceleration(load, item, side == 0 ? begun_ : ended_);
       LoadedParticle& p = loaded_[item.place];
-      double* const part = load.follows ? p.follow[side] : p.dead[side];
+      double* const part = load.follows ? p.follower[side] : p.dead[side];
       for (std::size_t c = 0; c < 3; ++c) part[c] += a[c];
     }
   }
@@ -224,7 +224,7 @@ void BodyBoundary::add_loads(int side) {
 
 void BodyBoundary::evaluate_loads(bool continues) {
   for (auto& p : loaded_)
-    for (auto* const part : {p.dead, p.follow})
+    for (auto* const part : {p.dead, p.follower})
       for (int c = 0; c < 3; ++c) {
         part[0][c] = continues ? part[1][c] : 0;
         part[1][c] = 0;

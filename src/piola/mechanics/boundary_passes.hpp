@@ -76,11 +76,11 @@ struct ArriveAlongDirections {
 /// N dA (Nanson).
 template <int D>
 PIOLA_FN void turn_load(LoadedParticle& p, bool at_end, Mat<3> const& cofactor_F) {
-  double *const a = p.acting[at_end], *const dead = p.dead[at_end], *const follow = p.follow[at_end];
+  double *const a = p.acting[at_end], *const dead = p.dead[at_end], *const follower = p.follower[at_end];
   for (int c = 0; c < 9; ++c) p.turn[at_end][c] = cofactor_F.c[c];
   for (int c = 0; c < D; ++c) {
     a[c] = dead[c];
-    for (int d = 0; d < D; ++d) a[c] += cofactor_F(c, d) * follow[d];
+    for (int d = 0; d < D; ++d) a[c] += cofactor_F(c, d) * follower[d];
   }
 }
 

@@ -26,12 +26,12 @@ struct PrescribedDirection {
 /// A loaded particle; pairs of values: at the start and at the end of the step.
 struct LoadedParticle {
   Index slot;
-  double mass;            ///< [kg]
-  double dead[2][3]{};    ///< acceleration by dead loads [m/s2]
-  double follow[2][3]{};  ///< by follower pressures, before the face is deformed [m/s2]
-  double acting[2][3]{};  ///< by all of them [m/s2]
-  double turn[2][9]{};    ///< cof F, which rotates follower pressures
-  double work = 0;        ///< in this step [J]
+  double mass;              ///< [kg]
+  double dead[2][3]{};      ///< acceleration by dead loads [m/s2]
+  double follower[2][3]{};  ///< by follower pressures, before the face is deformed [m/s2]
+  double acting[2][3]{};    ///< by all of them [m/s2]
+  double turn[2][9]{};      ///< cof F, which rotates follower pressures
+  double work = 0;          ///< in this step [J]
 };
 
 }  // namespace piola

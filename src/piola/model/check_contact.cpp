@@ -137,7 +137,7 @@ void check_strangers(CaseSpec const& spec, Problems& problems) {
         "body " + in_quotes(name) + ": nothing keeps it apart from " + joined(through) + " (" +
             why_without_surface(spec, b) + "), so that they would pass through one another" + std::string(who_has_one) +
             " - change the body; or say contact = \"none\", or law = \"none\" in [[contact]] between them, if they "
-            "are not to meet");
+            "are not to be in contact");
   }
 }
 

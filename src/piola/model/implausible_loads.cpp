@@ -107,8 +107,8 @@ bool is_formula(Expression const& expression) {
   return true;
 }
 
-void find_slips_of_loads(CaseSpec const& spec, ParticleSet const& particles, std::vector<BodyProperties> const& facts,
-                         Problems& slips) {
+void find_implausible_loads(CaseSpec const& spec, ParticleSet const& particles,
+                            std::vector<BodyProperties> const& facts, Problems& slips) {
   PIOLA_EXPECTS(facts.size() == spec.bodies.size());
   double fastest = 0;
   for (BodyProperties const& body : facts) fastest = std::max(fastest, body.p_wave);

@@ -198,7 +198,7 @@ void find_implausible_values(CaseSpec const& spec, ParticleSet const& particles,
   }
   check_motion(spec, facts, slips);
   check_friction(spec, slips);
-  find_slips_of_loads(spec, particles, facts, slips);
+  find_implausible_loads(spec, particles, facts, slips);
   if (check_steps(spec.run, step, slips)) check_transits(spec, facts, slips);
 }
 

@@ -30,7 +30,7 @@ inline constexpr double least_bytes_per_particle = 500;
 /// "path=value" that replace values of the file (see apply_overrides). Throws InputError with every problem that was
 /// found, each "file:line:column: what is wrong (what is allowed) - what to do", in the order of the file, or that the
 /// file cannot be read.
-/// Particles, which the checks need, are left in `made` if that is given (input/check_case.hpp: make_particles).
+/// Particles, which the checks need, are left in `made` if that is given (model/case_particles.hpp: make_particles).
 CaseSpec read_case(std::filesystem::path const& path, std::vector<std::string> const& overrides = {},
                    ReadLimits const& limits = {}, ParticleSet* made = nullptr);
 

@@ -27,7 +27,7 @@ class NearestParticle {
     if (!(found.square <= 1)) found = among(far_, at);
     if (found.square <= 9) return found.particle;
     found = {};
-    for (std::size_t a = 0; a < scaled_.size(); ++a) observe(a, at, found);
+    for (std::size_t a = 0; a < scaled_.size(); ++a) consider(a, at, found);
     return found.particle;
   }
 
@@ -42,14 +42,14 @@ class NearestParticle {
       for (std::size_t c = 0; c < 3; ++c) p[c] /= body.spacing[c];
     return points;
   }
-  void observe(std::size_t a, Place const& at, Found& found) const {
+  void consider(std::size_t a, Place const& at, Found& found) const {
     double square = 0;
     for (std::size_t c = 0; c < 3; ++c) square += (scaled_[a][c] - at[c]) * (scaled_[a][c] - at[c]);
     if (square < found.square || (square == found.square && a < found.particle)) found = {a, square};
   }
   Found among(CellGrid const& grid, Place const& at) const {
     Found found;
-    grid.visit(at, [&](Index a) { observe(static_cast<std::size_t>(a), at, found); });
+    grid.visit(at, [&](Index a) { consider(static_cast<std::size_t>(a), at, found); });
     return found;
   }
 

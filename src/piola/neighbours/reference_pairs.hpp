@@ -37,7 +37,7 @@ struct PairOptions {
 };
 
 /// Per-particle corrections; SoA. Lattice particles with equal neighbours have equal corrections, which are stored
-/// once. See tables.hpp for the operators.
+/// once. See pair_table_views.hpp for the operators.
 struct Corrections {
   std::vector<std::int32_t> kind;  ///< regular bodies: per slot, where its corrections are; empty: slot by slot
   Index first = 0;                 ///< then the slot of the first ones

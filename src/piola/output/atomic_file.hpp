@@ -58,7 +58,7 @@ class AtomicFile {
   int error_ = 0;  ///< errno of the first failure
 };
 
-/// A AtomicFile that another process has created, for concurrent writing, or a file to read.
+/// An AtomicFile that another process has created, for concurrent writing, or a file to read.
 class SharedFile {
  public:
   /// `number`: identity of the file on the creating process, see number(). The file is not opened if the local one

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t block = std::size_t{1} << 20;  // bytes read at once
 
-std::string seal_text(std::uint32_t check_sum, std::uint64_t bytes) {
+std::string trailer_text(std::uint32_t check_sum, std::uint64_t bytes) {
   return fmt::format("piola seal: CRC-32 {:08x} over {:020} bytes\n", check_sum, bytes);
 }
 
@@ -40,8 +40,8 @@ std::uint32_t shift_by(std::uint64_t bytes) {
   return shift;
 }
 
-constexpr std::string_view seal_start = "piola seal: ";
-std::size_t const seal_length = seal_text(0, 0).size();
+constexpr std::string_view trailer_start = "piola seal: ";
+std::size_t const trailer_length = trailer_text(0, 0).size();
 
 }  // namespace
 
@@ -53,22 +53,22 @@ void CheckSum::add(std::uint32_t check_sum, std::uint64_t bytes) {
   value_ = product(value_, shift_by(bytes)) ^ check_sum;
 }
 
-std::string checksum_trailer_of(CheckSum const& sum, std::uint64_t bytes) { return seal_text(sum.value(), bytes); }
+std::string checksum_trailer_of(CheckSum const& sum, std::uint64_t bytes) { return trailer_text(sum.value(), bytes); }
 
 bool has_checksum_trailer(std::filesystem::path const& path) {
-  std::string seal(seal_length, '\0');
+  std::string trailer(trailer_length, '\0');
   if (!FileToRead(path).problem().empty()) return false;
   std::ifstream file(path, std::ios::binary);
-  file.seekg(-static_cast<std::streamoff>(seal_length), std::ios::end);
-  file.read(seal.data(), static_cast<std::streamsize>(seal_length));
-  return file && seal.starts_with(seal_start);
+  file.seekg(-static_cast<std::streamoff>(trailer_length), std::ios::end);
+  file.read(trailer.data(), static_cast<std::streamsize>(trailer_length));
+  return file && trailer.starts_with(trailer_start);
 }
 
 void verify_checksum_trailer(std::filesystem::path const& path) {
   FileToRead file(path);
   if (file.size() == 0)
     throw FileError(fmt::format("{}: cannot be read - it is missing, empty or not a file", path.string()));
-  auto const content = file.size() - std::min<std::uint64_t>(file.size(), seal_length);
+  auto const content = file.size() - std::min<std::uint64_t>(file.size(), trailer_length);
   CheckSum sum;
   std::vector<char> buffer(std::min<std::uint64_t>(content, block));
   for (std::uint64_t left = content; left > 0;) {
@@ -77,12 +77,12 @@ void verify_checksum_trailer(std::filesystem::path const& path) {
     sum.add(std::string_view(buffer.data(), part));
     left -= part;
   }
-  std::string seal(seal_length, '\0');
-  if (file.read(seal) < seal_length || !seal.starts_with(seal_start)) {
+  std::string trailer(trailer_length, '\0');
+  if (file.read(trailer) < trailer_length || !trailer.starts_with(trailer_start)) {
     throw FileError(fmt::format(
         "{}: does not end with its check sum - the file is cut off or was written by another program", path.string()));
   }
-  if (seal != seal_text(sum.value(), content)) {
+  if (trailer != trailer_text(sum.value(), content)) {
     throw FileError(
         fmt::format("{}: does not have the check sum it was written with - the file is damaged", path.string()));
   }

@@ -23,14 +23,16 @@ class CheckSum {
   std::uint32_t value_ = 0;
 };
 
-/// The seal is the last line of a binary file: "piola seal: CRC-32 1a2b3c4d over 00000000000000001234 bytes\n". Readers
-/// of HDF5 ignore bytes after the end that a file states itself, so that sealed files stay ordinary HDF5 files.
+/// The checksum trailer is the last line of a binary file: "piola seal: CRC-32 1a2b3c4d over 00000000000000001234
+/// bytes\n". Readers of HDF5 ignore bytes after the end that a file states itself, so that files with it stay ordinary
+/// HDF5 files.
 std::string checksum_trailer_of(CheckSum const& sum, std::uint64_t bytes);
 
-/// Whether the last line of a file has the form of a seal; it is not verified. False for a file that cannot be read.
+/// Whether the last line of a file has the form of a checksum trailer; it is not verified. False for a file that cannot
+/// be read.
 bool has_checksum_trailer(std::filesystem::path const& path);
 
-/// Verifies a file; call before any other access. Throws FileError unless its last line is the seal of all preceding
+/// Verifies a file; call before any other access. Throws FileError unless its last line is the trailer of all preceding
 /// bytes. Reads the whole file.
 void verify_checksum_trailer(std::filesystem::path const& path);
 

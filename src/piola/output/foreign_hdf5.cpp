@@ -102,9 +102,8 @@ DataColumns read_data_columns(std::filesystem::path const& path, std::string con
   auto const bytes = std::filesystem::is_regular_file(path, error) ? std::filesystem::file_size(path, error) : 0;
   if (error || bytes == 0)
     throw FileError(fmt::format("{}: cannot be read - it is missing, empty or not a file", path.string()));
-  constexpr double shutdown_timeout = 30, per_byte = 1e-6;
-  ChildLimits const limits{shutdown_timeout + per_byte * static_cast<double>(bytes),
-                           std::size_t{2'000'000'000} + 60 * bytes};
+  constexpr double time_limit = 30, per_byte = 1e-6;
+  ChildLimits const limits{time_limit + per_byte * static_cast<double>(bytes), std::size_t{2'000'000'000} + 60 * bytes};
   ChildAnswer answer = run_in_child_process([&] { return packed_columns(path, group); }, limits);
   ByteReader all(answer.bytes);
   std::vector<std::string> problems, names, units;

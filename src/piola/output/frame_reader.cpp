@@ -15,21 +15,25 @@ namespace {
 
 constexpr char const* all_data = "/VTKHDF/PointData";
 
-std::string data_of(hdf5::Reader const& file, std::string const& field) {
-  return fmt::format("{}/{}", all_data, stored_output_name(field, file.names(all_data)));
-}
-
-std::uint64_t components_in(hdf5::Reader const& file, std::string const& field) {
-  std::uint64_t const columns = file.columns(data_of(file, field));
-  if (columns != 1 && columns != 3 && columns != 6 && columns != 9)
-    file.fail(field, fmt::format("has {} components (1, 3, 6 or 9 are known)", columns));
-  return columns;
-}
-
 }  // namespace
 
 struct FrameReader::File {
   hdf5::Reader reader;
+  std::vector<std::string> names = {};  ///< of the stored fields, as in the file; listed at the first use
+
+  std::vector<std::string> const& stored_names() {
+    if (names.empty()) names = reader.names(all_data);
+    return names;
+  }
+  std::string data_of(std::string const& field) {
+    return fmt::format("{}/{}", all_data, stored_output_name(field, stored_names()));
+  }
+  std::uint64_t components_in(std::string const& field) {
+    std::uint64_t const columns = reader.columns(data_of(field));
+    if (columns != 1 && columns != 3 && columns != 6 && columns != 9)
+      reader.fail(field, fmt::format("has {} components (1, 3, 6 or 9 are known)", columns));
+    return columns;
+  }
 };
 
 FrameReader::FrameReader(std::filesystem::path const& path) : file_(new File{hdf5::Reader(path)}) {
@@ -67,7 +71,7 @@ std::vector<double> FrameReader::rigid_poses() const {
 }
 
 std::vector<std::string> FrameReader::fields() const {
-  auto names = file_->reader.names(all_data);
+  auto names = file_->stored_names();
   for (std::string& name : names) name = current_output_name(name);
   std::sort(names.begin(), names.end());
   return names;
@@ -87,7 +91,7 @@ std::string FrameReader::source_of(std::string const& field) const {
 
 template <class T>
 std::vector<T> FrameReader::rows(std::string const& field, std::uint64_t columns) const {
-  auto values = file_->reader.dataset<T>(data_of(file_->reader, field), columns);
+  auto values = file_->reader.dataset<T>(file_->data_of(field), columns);
   if (values.size() != particles_ * columns) file_->reader.fail(field, "has not one value per point");
   return values;
 }
@@ -98,13 +102,13 @@ FieldInfo FrameReader::info(std::string const& field) const {
     return {field, std::string(derived.unit), components_of(derived)};
   }
   bool const plain = field == "Volume";  // written without a unit
-  return {field, plain ? "" : file_->reader.text(data_of(file_->reader, field), "unit"),
-          static_cast<int>(components_in(file_->reader, field))};
+  return {field, plain ? "" : file_->reader.text(file_->data_of(field), "unit"),
+          static_cast<int>(file_->components_in(field))};
 }
 
 std::vector<float> FrameReader::values(std::string const& field) const {
   std::string const source = source_of(field);
-  std::uint64_t const columns = components_in(file_->reader, source);
+  std::uint64_t const columns = file_->components_in(source);
   if (source == field) return rows<float>(field, columns);
   DerivedField const& derived = *find_derived(field);
   auto const from = rows<double>(source, columns);

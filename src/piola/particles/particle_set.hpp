@@ -40,7 +40,7 @@ struct Crack {
 };
 
 /// The particles of a run in Id order, as set-up generates them. Reference data only; evolved fields belong to a
-/// formulation. Copies share their arrays (shared_vector.hpp), so a copy in a formulation costs no memory. All
+/// formulation. Copies share their arrays (copy_on_write_vector.hpp), so a copy in a formulation costs no memory. All
 /// positions have three components; unused ones are zero. Volumes are m^Dim (per unit thickness or section).
 struct ParticleSet {
   int dimension = 3;

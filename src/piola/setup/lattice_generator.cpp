@@ -35,24 +35,11 @@ Lattice box_lattice(ShapeSpec const& shape) {
   return lattice;
 }
 
-}  // namespace
-
-// Cells over a length; a number that no lattice can have is kept at the largest int and refused by the caller.
-int cells_over(double length, double spacing) {
-  double const cells = std::round(length / spacing);
-  if (!(cells < std::numeric_limits<int>::max())) return std::numeric_limits<int>::max();
-  return std::max(1, static_cast<int>(cells));
-}
-
-bool along_axis(ShapeSpec const& shape, int d) { return shape.kind == ShapeSpec::Kind::cylinder && d == shape.axis; }
-
 /// Whether the outermost particles in direction d lie on the faces.
 bool on_faces(ShapeSpec const& shape, int d) {
   bool const flat = shape.kind == ShapeSpec::Kind::box || along_axis(shape, d);
   return flat && shape.placement == ShapeSpec::Placement::on_boundary;
 }
-
-namespace {
 
 Lattice round_lattice(ShapeSpec const& shape) {
   Lattice lattice;
@@ -69,14 +56,6 @@ Lattice round_lattice(ShapeSpec const& shape) {
   }
   return lattice;
 }
-
-}  // namespace
-
-GenerationLattice lattice_of(ShapeSpec const& shape) {
-  return shape.kind == ShapeSpec::Kind::box ? box_lattice(shape) : round_lattice(shape);
-}
-
-namespace {
 
 // Squared distance from the centre, or from the axis of a cylinder, that a lattice index adds in direction d.
 double round_part(ShapeSpec const& shape, Lattice const& lattice, int d, std::int64_t index) {
@@ -158,6 +137,18 @@ void shake(ShapeSpec const& shape, Lattice const& lattice, Index3 const& index, 
 
 }  // namespace
 
+int cells_over(double length, double spacing) {
+  double const cells = std::round(length / spacing);
+  if (!(cells < std::numeric_limits<int>::max())) return std::numeric_limits<int>::max();
+  return std::max(1, static_cast<int>(cells));
+}
+
+bool along_axis(ShapeSpec const& shape, int d) { return shape.kind == ShapeSpec::Kind::cylinder && d == shape.axis; }
+
+GenerationLattice lattice_of(ShapeSpec const& shape) {
+  return shape.kind == ShapeSpec::Kind::box ? box_lattice(shape) : round_lattice(shape);
+}
+
 LatticeGenerator::LatticeGenerator(ShapeSpec const& shape) : shape_(shape), lattice_(lattice_of(shape)) {
   PIOLA_EXPECTS(shape.kind != ShapeSpec::Kind::solid && shape.kind != ShapeSpec::Kind::points);
   for (int d = 0; d < shape.dimension; ++d) cell_ *= lattice_.spacing[static_cast<std::size_t>(d)];
@@ -194,9 +185,9 @@ std::vector<LatticeGenerator::Run> LatticeGenerator::runs() const {
 }
 
 GeneratedParticle LatticeGenerator::at(std::array<int, 3> const& place) const {
-  GeneratedParticle born{position(shape_, lattice_, place), cell_ * share_of_cell(shape_, lattice_, place)};
-  if (shape_.jitter > 0) shake(shape_, lattice_, place, born.X);
-  return born;
+  GeneratedParticle particle{position(shape_, lattice_, place), cell_ * share_of_cell(shape_, lattice_, place)};
+  if (shape_.jitter > 0) shake(shape_, lattice_, place, particle.X);
+  return particle;
 }
 
 }  // namespace piola

@@ -122,16 +122,15 @@ geometry::Packing packing_of(Piece const& piece, double spacing, std::array<doub
     if (auto found = read_packing(to.unfinished / name, piece.key)) return std::move(*found);
     options.from = read_unfinished(to.unfinished / name, piece.key);
   }
-  AfterSweep conversion_request = AfterSweep::go_on;
+  AfterSweep after_sweep = AfterSweep::go_on;
   options.progress = [&](int sweep) {
-    if (to.progress) conversion_request = to.progress(done[0] + (done[1] - done[0]) * sweep / options.sweeps);
-    return conversion_request == AfterSweep::go_on;
+    if (to.progress) after_sweep = to.progress(done[0] + (done[1] - done[0]) * sweep / options.sweeps);
+    return after_sweep == AfterSweep::go_on;
   };
   constexpr std::chrono::seconds worth_keeping{1};
   auto const start = std::chrono::steady_clock::now();
   geometry::Packing packing = geometry::pack(*piece.solid, piece.volume, spacing, options);
-  if (packing.unfinished && conversion_request == AfterSweep::keep)
-    stop(*packing.unfinished, piece, options.sweeps, to);
+  if (packing.unfinished && after_sweep == AfterSweep::keep) stop(*packing.unfinished, piece, options.sweeps, to);
   bool const dear = options.from || std::chrono::steady_clock::now() - start > worth_keeping;
   if (dear && !packing.unfinished && !to.unfinished.empty() && comm::rank() == 0) {
     make_folder(to.unfinished);

@@ -106,11 +106,11 @@ void fill_rings(ShapeSpec const& shape, ParticleSet& set, Body& body) {
 }
 
 void fill_lattice(ShapeSpec const& shape, ParticleSet& set, Body& body) {
-  LatticeGenerator const births(shape);
-  body.spacing = births.lattice().spacing;
-  body.lattice = births.lattice().count;
+  LatticeGenerator const generator(shape);
+  body.spacing = generator.lattice().spacing;
+  body.lattice = generator.lattice().count;
   body.regular = !(shape.jitter > 0) && !shape.random;
-  auto const runs = births.runs();
+  auto const runs = generator.runs();
   std::size_t const first = set.X.size();
   std::size_t const size =
       runs.empty() ? first : first + static_cast<std::size_t>(runs.back().id + runs.back().last - runs.back().first);
@@ -120,14 +120,14 @@ void fill_lattice(ShapeSpec const& shape, ParticleSet& set, Body& body) {
   X.resize(size);
   lattice_index.resize(size);
   volume.resize(size);
-  set.kernel_volume.resize(size, births.kernel_volume());
+  set.kernel_volume.resize(size, generator.kernel_volume());
   set.body.resize(size, static_cast<int>(set.bodies.size()));
   LatticeGenerator::each_run(runs, [&](std::size_t run, std::int64_t i) {
     std::size_t const at = first + static_cast<std::size_t>(runs[run].id + (i - runs[run].first));
     lattice_index[at] = {static_cast<int>(i), runs[run].j, runs[run].k};
-    GeneratedParticle const birth = births.at(lattice_index[at]);
-    X[at] = birth.X;
-    volume[at] = birth.volume;
+    GeneratedParticle const particle = generator.at(lattice_index[at]);
+    X[at] = particle.X;
+    volume[at] = particle.volume;
   });
 }
 

@@ -27,18 +27,18 @@ class BroadcastReader final : public StateReader {
     comm::broadcast_bytes(values.data(), values.size_bytes());
   }
   void get_on_root(std::string_view name, std::span<double> values) override {
-    resultant_on_first([&] { reader_->get(name, values); });
+    on_root([&] { reader_->get(name, values); });
   }
   void get_rows(std::string_view name, DistributedRows const& rows, std::span<double> values) override {
     std::optional<FileExtent> place;
-    resultant_on_first([&] { place = reader_->place(name, value_count(rows)); });
+    on_root([&] { place = reader_->place(name, value_count(rows)); });
     if (!rows_.read(place, rows, values)) StateReader::get_rows(name, rows, values);
   }
 
  private:
   /// Calls f on rank 0. If it throws there, all ranks throw.
   template <class F>
-  void resultant_on_first(F const& f) {
+  void on_root(F const& f) {
     int good = 1;
     std::exception_ptr trouble;
     if (reader_ != nullptr) try {

@@ -296,7 +296,7 @@ void write_frame_collectively(bool failed, std::function<void()> const& write) {
   write();
 }
 
-int follow(Simulation& simulation) {
+int run_worker(Simulation& simulation) {
   PIOLA_EXPECTS(simulation.formulation != nullptr);
   Formulation& formulation = *simulation.formulation;
   std::optional<ProbeSet> probes;  // made when rank 0 has made them without complaint

@@ -41,7 +41,7 @@ class Relaxation : public Observer {
   std::string text() const;
   /// Reason for slow convergence; empty: none.
   std::string slow_text() const;
-  /// The objection for an unfinished() run, with advice.
+  /// The stop request for an unfinished() run, with advice.
   StopRequest objection_at_end() const;
 
   void observe(Formulation const&, TimeState const&) override {}

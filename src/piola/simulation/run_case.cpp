@@ -192,7 +192,7 @@ void blame_formula(Simulation const& s, TimeState const& moment, LoopResult& las
 }
 
 /// Number of repartitions, as text.
-std::string recuts_text(RepartitionStatistics const& repartition_statistics) {
+std::string repartition_text(RepartitionStatistics const& repartition_statistics) {
   auto const percent = [](double share) { return fmt::format("{:.0f} %", 100 * share); };
   std::string text = fmt::format("particles were repartitioned {} times", repartition_statistics.imbalance.size());
   for (std::size_t k = 0; k < repartition_statistics.imbalance.size() && k < 5; ++k)
@@ -208,7 +208,7 @@ void add_watched(Summary& summary, Simulation const& s, Watch const& watch, RunL
   if (!summary.ranks.empty()) summary.repartition_statistics = s.formulation->repartition_statistics();
   if (auto const& repartition_statistics = summary.repartition_statistics;
       repartition_statistics && !repartition_statistics->imbalance.empty())
-    journal.note(recuts_text(*repartition_statistics));
+    journal.note(repartition_text(*repartition_statistics));
   if (!watch.relaxation.active()) return;
   RelaxationStatus const& rest = watch.relaxation.rest();
   summary.relaxation = {rest.reached, rest.residual, rest.stops};

@@ -64,8 +64,8 @@ class CaseRun {
 };
 
 /// Runs a case from its start (or its newest checkpoint) to its end with all its output. `stop` may be set by a signal
-/// handler: the run then writes a checkpoint and returns with Ending::stopped, as it does before the wall-time limit.
-/// Throws InputError (the folder is refused, nothing to resume from, the case has changed) and FileError (output
+/// handler: the run then writes a checkpoint and returns with RunStatus::stopped, as it does before the wall-time
+/// limit. Throws InputError (the folder is refused, nothing to resume from, the case has changed) and FileError (output
 /// impossible).
 CaseOutcome run_case(Simulation& simulation, RunOptions const& options, Listener& listener,
                      std::atomic<int> const& stop);

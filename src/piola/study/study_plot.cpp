@@ -109,7 +109,7 @@ std::string unit_behind(std::string const& text) {
 }
 
 /// Values of a parameter in the unit of the first one.
-std::vector<double> value_count(StudyTable const& table, std::size_t parameter, std::string const& unit) {
+std::vector<double> parameter_values(StudyTable const& table, std::size_t parameter, std::string const& unit) {
   std::vector<double> numbers;
   for (StudyCells const& row : table.rows) {
     Quantity const value = read_quantity(table.value(row, parameter), unit.empty() ? "1" : unit);
@@ -193,7 +193,7 @@ Plot study_plot(std::filesystem::path const& table_file, StudyPlotOptions const&
   std::size_t const parameter = parameter_of(table, options.against);
   StudyCells const quantities = chosen_quantities(table, options.quantities);
   std::string const unit_of_x = unit_behind(table.value(table.rows.front(), parameter));
-  auto const x = value_count(table, parameter, unit_of_x);
+  auto const x = parameter_values(table, parameter, unit_of_x);
   Plot plot;
   std::filesystem::path const folder = table.path.parent_path();
   plot.title = folder.empty() ? table.path.stem().string() : folder.filename().string();

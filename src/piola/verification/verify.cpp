@@ -271,16 +271,15 @@ Plan plan_of(fs::path const& folder, VerifyOptions const& options) {
 }
 
 /// The fields that checks of a variant need.
-std::vector<FieldSampler::SampleRequest> wishes_of(std::vector<Check> const& checks, std::string const& variant) {
-  std::vector<FieldSampler::SampleRequest> sample_requests;
+std::vector<FieldSampler::SampleRequest> sample_requests_of(std::vector<Check> const& checks,
+                                                            std::string const& variant) {
+  std::vector<FieldSampler::SampleRequest> requests;
   for (Check const& c : checks) {
-    FieldSampler::SampleRequest const sample_request{c.field, c.time};
-    bool const known =
-        std::find(sample_requests.begin(), sample_requests.end(), sample_request) != sample_requests.end();
-    if (c.as == Check::Comparison::field_error && looks_at(c, variant) && !known)
-      sample_requests.push_back(sample_request);
+    FieldSampler::SampleRequest const request{c.field, c.time};
+    bool const known = std::find(requests.begin(), requests.end(), request) != requests.end();
+    if (c.as == Check::Comparison::field_error && looks_at(c, variant) && !known) requests.push_back(request);
   }
-  return sample_requests;
+  return requests;
 }
 
 /// Reads all files of checks before anything runs. Throws InputError with the problems of all of them.
@@ -375,7 +374,7 @@ std::vector<CaseVerification> verify(VerifyOptions const& options, Prepare const
       if (stop.load() != 0) break;
       watch.start(plan.name, variant.name);
       result.runs.push_back(run_variant(plan.file, variant, options.out / plan.name / folder_of(variant.name),
-                                        wishes_of(plan.checks, variant.name), prepare, watch, stop));
+                                        sample_requests_of(plan.checks, variant.name), prepare, watch, stop));
     }
     result.rows = compare(plan.name, plan.checks, result.runs);
     if (stop.load() != 0) break;

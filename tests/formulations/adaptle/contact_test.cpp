@@ -205,7 +205,7 @@ TEST(AdaptleRigid, Boxes) {
   expect(look<2>(p, {6, 5, 0}), 5, {0.6, 0.8, 0});
 }
 
-/// Two bodies of one particle each, 3 spacings apart, that meet head on at 50 m/s each.
+/// Two bodies of one particle each, 3 spacings apart, that collide head on at 50 m/s each.
 Assembly two_particles(int dimension) {
   ParticleSet set;
   set.dimension = dimension;

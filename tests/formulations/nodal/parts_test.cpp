@@ -6,7 +6,7 @@ namespace piola::testing {
 namespace {
 
 /// Particles beyond a plane, and beyond a second one, are of other materials. Their numbers are no multiples of any
-/// lane count, so that materials meet within groups of lanes.
+/// lane count, so that groups of lanes hold two materials.
 Assembly layered(int dimension, double jitter = 0.1) {
   Assembly a = nodal_body(brick(dimension, jitter, {5, 5, 6}));
   std::vector<int>& part = a.particles.part.own();

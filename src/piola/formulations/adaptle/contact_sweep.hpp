@@ -179,12 +179,12 @@ struct RigidSweep {
     for (int c = 0; c < 6 * shapes; ++c) of_block[c] = 0;
     for (Index i = block.first; i < block.last; ++i) {
       power_on_bodies[i] = 0;
-      for (int k = 0; k < shapes; ++k) add_velocities(i, shape[k], of_block + std::ptrdiff_t{6} * k);
+      for (int k = 0; k < shapes; ++k) push_off(i, shape[k], of_block + std::ptrdiff_t{6} * k);
     }
   }
 
  private:
-  PIOLA_FN void add_velocities(Index i, RigidPoseAtHalfTime const& s, double* sum) const {
+  PIOLA_FN void push_off(Index i, RigidPoseAtHalfTime const& s, double* sum) const {
     double normal[3];
     BodyConstants const& b = body[body_of[i]];
     double const stand_off = 0.5 * b.spacing, place[3]{x.at(i), x.at(i, 1), x.at(i, 2)},

@@ -23,7 +23,7 @@ double strain_of(int dimension, Mat<3> const& F, SymMat<3> const& stress, BodyCo
 
 /// Evaluates convert_when; returns whether a particle of any rank is to convert by it.
 bool Particles::requests_by_formula() {
-  double any_wish = 0;
+  double any_request = 0;
   bool asked = false;
   for (std::size_t k = 0; k < body_.size(); ++k) {
     BodyConstants const& b = body_[k];
@@ -50,12 +50,12 @@ bool Particles::requests_by_formula() {
                                 rho};
         if (formula(X(i), energy_totals_.time, values) == 0) continue;
         conversion_requests_[at(i)] = 1;
-        any_wish = 1;
+        any_request = 1;
       }
     });
   }
-  if (exchanges_ && asked) comm::allreduce_max(any_wish);
-  return any_wish > 0;
+  if (exchanges_ && asked) comm::allreduce_max(any_request);
+  return any_request > 0;
 }
 
 namespace {

@@ -90,10 +90,10 @@ struct StepEnd {
       if (material.used && any(phi.scalar<Lanes>(i) < 1.0)) inverse_F = inverse(F.matrix<Lanes>(i));
       Lanes const step = limit(g, scratch, L, inverse_F);
       least = StepLimit::shorter(least, select(real, step, Lanes(1e300)));
-      m[BlockMeasures::conversion_requests] += make_wishes(g, inverse_F);
+      m[BlockMeasures::conversion_requests] += make_requests(g, inverse_F);
       check(g);
     });
-    for (int k = 0; k < BlockMeasures::sums; ++k) m[k] += parallel_sum(sums[k]);
+    for (int k = 0; k < BlockMeasures::sums; ++k) m[k] += sum_of_lanes(sums[k]);
     m[BlockMeasures::dt] = -largest_of(-least);
     m[BlockMeasures::overlap] = largest_of(overlap);
   }
@@ -137,7 +137,7 @@ struct StepEnd {
   }
 
   /// Sets conversion requests: 1: with the neighbours, 2: alone, 0: none. Returns the number of requests.
-  PIOLA_FN int make_wishes(Group g, Mat<3, Lanes> const& inverse_F) const {
+  PIOLA_FN int make_requests(Group g, Mat<3, Lanes> const& inverse_F) const {
     Lanes const blend = phi.scalar<Lanes>(g.first);
     auto const blended = blend > 0.0 && blend < 1.0;
     for (int l = 0; l < g.count; ++l) conversion_request[g.first + l] = 0;
@@ -145,7 +145,7 @@ struct StepEnd {
     if (!may && !any(g.mask() && blended)) return 0;
     if (!material.used) return 0;
     Lanes r(0.0);
-    if (may) r = select(!(blend > 0.0) && active.scalar<Lanes>(g.first) > 0.0, wish_of(g.first, inverse_F), r);
+    if (may) r = select(!(blend > 0.0) && active.scalar<Lanes>(g.first) > 0.0, request_of(g.first, inverse_F), r);
     // Blended particles become fully Eulerian once the deformation gradient is unusable.
     Lanes const J = determinant(F.matrix<Lanes>(g.first));
     r = select(blended && !(J >= body.jacobian_min && J <= body.jacobian_max), Lanes(2.0), r);
@@ -157,7 +157,7 @@ struct StepEnd {
     return conversion_requests;
   }
 
-  PIOLA_FN Lanes wish_of(Index i, Mat<3, Lanes> const& inverse_F) const {
+  PIOLA_FN Lanes request_of(Index i, Mat<3, Lanes> const& inverse_F) const {
     Mat<3, Lanes> const gradient = F.matrix<Lanes>(i);
     Lanes const J = body.rho0 / rho_half.scalar<Lanes>(i);
     Lanes size(0.0), inverse_size(0.0);

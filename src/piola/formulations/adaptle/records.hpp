@@ -76,7 +76,7 @@ PIOLA_FN Lanes load_gradients(float const* p) {
 #endif
 }
 
-PIOLA_FN double parallel_sum(Lanes const& a) {
+PIOLA_FN double sum_of_lanes(Lanes const& a) {
   double sum = 0;
   for (int l = 0; l < lane_count; ++l) sum += lane(a, l);
   return sum;

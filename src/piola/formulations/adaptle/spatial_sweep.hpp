@@ -318,7 +318,7 @@ struct CorrectSpatial {
       refused = refused || (square < h * h && along < 0.0);
       if (any(inside && refused)) return false;
     }
-    return parallel_sum(neighbours) >= 2;
+    return sum_of_lanes(neighbours) >= 2;
   }
 };
 

@@ -10,14 +10,14 @@ namespace piola::adaptle {
 
 /// Communication in a step. Each rank owns a range of slots of every body and computes the results of these slots.
 /// Kernel types, cell marks and conversions are replicated. Ghosts in the reference configuration are exchanged by
-/// halos, spatial ghosts by SpatialHaloExchange. exchanges.cpp alone determines the fields and their order. All members
-/// are collective.
+/// halos, spatial ghosts by SpatialHaloExchange. step_halo_exchanges.cpp alone determines the fields and their order.
+/// All members are collective.
 class StepHaloExchanges {
  public:
   /// system: of a distributed run, with its tables. cuts: partition of each body.
   StepHaloExchanges(System const& system, ReferenceLists const& lists, std::vector<Partition> cuts);
 
-  /// To be called between the parts of a step (Machine), in this order. before_lists() also broadcasts a failure of any
+  /// To be called between the parts of a step (Backend), in this order. before_lists() also broadcasts a failure of any
   /// rank and returns the input of the step's lists.
   SpatialLists::RemoteParticles before_lists(System const& system);
   void after_prediction(System const& system);

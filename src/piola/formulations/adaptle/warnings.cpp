@@ -11,8 +11,8 @@ namespace {
 
 using Keys = std::initializer_list<std::string_view>;
 
-void ignore(BodyWarnings& setting_warnings, Keys keys, std::string_view why) {
-  for (std::string_view const key : keys) setting_warnings.ignored(key, why);
+void ignore(BodyWarnings& warnings, Keys keys, std::string_view why) {
+  for (std::string_view const key : keys) warnings.ignored(key, why);
 }
 
 /// Which descriptions particles of the case may have.
@@ -29,86 +29,84 @@ Mixture mixture_of(Options const& options) {
   return m;
 }
 
-void doubt_description(BodyOptions const& o, Options const& all, BodyWarnings& setting_warnings) {
+void warn_of_description(BodyOptions const& o, Options const& all, BodyWarnings& warnings) {
   bool const adaptive = o.description == Description::adaptive, patch = o.description == Description::patch;
   if (!adaptive && !o.deletes)
-    ignore(setting_warnings, {"convert_strain"}, "particles convert with description = \"adaptive\"");
+    ignore(warnings, {"convert_strain"}, "particles convert with description = \"adaptive\"");
   if (!adaptive && !o.deletes)
-    ignore(setting_warnings, {"convert_damage"},
-           "particles convert with description = \"adaptive\", or fail with \"delete\"");
+    ignore(warnings, {"convert_damage"}, "particles convert with description = \"adaptive\", or fail with \"delete\"");
   if (!adaptive)
-    ignore(setting_warnings, {"conversion_radius", "conversion_separation"},
+    ignore(warnings, {"conversion_radius", "conversion_separation"},
            "particles convert with description = \"adaptive\"");
   if (!adaptive && !o.deletes && !patch)
-    ignore(setting_warnings, {"jacobian_min", "jacobian_max"}, "particles convert with description = \"adaptive\"");
-  if (!patch) ignore(setting_warnings, {"blend"}, "it belongs to description = \"patch\"");
+    ignore(warnings, {"jacobian_min", "jacobian_max"}, "particles convert with description = \"adaptive\"");
+  if (!patch) ignore(warnings, {"blend"}, "it belongs to description = \"patch\"");
   if (patch && all.settings.interface_form == Interface::as_published)
-    ignore(setting_warnings, {"blend"}, "interface = \"published\" is sharp");
+    ignore(warnings, {"blend"}, "interface = \"published\" is sharp");
   if (o.description == Description::eulerian)
-    ignore(setting_warnings, {"hourglass", "hourglass_stiffness", "material_smoothing_length"},
+    ignore(warnings, {"hourglass", "hourglass_stiffness", "material_smoothing_length"},
            "it is for total-Lagrangian particles, and all are Eulerian");
 }
 
-void doubt_mixture(Options const& all, BodyWarnings& setting_warnings) {
+void warn_of_mixture(Options const& all, BodyWarnings& warnings) {
   Mixture const m = mixture_of(all);
   if (!m.lagrangian || !m.eulerian)
-    ignore(setting_warnings, {"interface", "artificial_stress_interface"},
+    ignore(warnings, {"interface", "artificial_stress_interface"},
            "no particles of both descriptions can be neighbours");
   if (!m.eulerian) {
-    if (number_of(setting_warnings.spec(), "artificial_stress", 0) > 0)
-      ignore(setting_warnings, {"artificial_stress"}, "it acts on Eulerian particles, and none can become so");
-    ignore(setting_warnings, {"artificial_stress_exponent"}, "no particle can become Eulerian");
+    if (number_of(warnings.spec(), "artificial_stress", 0) > 0)
+      ignore(warnings, {"artificial_stress"}, "it acts on Eulerian particles, and none can become so");
+    ignore(warnings, {"artificial_stress_exponent"}, "no particle can become Eulerian");
   }
-  if (!m.lagrangian && setting_warnings.has_setting("correction", "material"))
-    ignore(setting_warnings, {"correction"}, "it corrects total-Lagrangian sums, and all particles are Eulerian");
-  if (!all.settings.corrected) ignore(setting_warnings, {"correction_limit"}, "it belongs to correction = \"mixed\"");
+  if (!m.lagrangian && warnings.has_setting("correction", "material"))
+    ignore(warnings, {"correction"}, "it corrects total-Lagrangian sums, and all particles are Eulerian");
+  if (!all.settings.corrected) ignore(warnings, {"correction_limit"}, "it belongs to correction = \"mixed\"");
 }
 
-void doubt_forces(BodyOptions const& o, Options const& all, int dimension, BodyWarnings& setting_warnings) {
+void warn_of_forces(BodyOptions const& o, Options const& all, int dimension, BodyWarnings& warnings) {
   bool const riemann = all.settings.viscosity == Viscosity::riemann;
   if (riemann)
-    ignore(setting_warnings, {"alpha", "beta", "viscosity_speed", "artificial_stress", "artificial_stress_exponent"},
+    ignore(warnings, {"alpha", "beta", "viscosity_speed", "artificial_stress", "artificial_stress_exponent"},
            "viscosity = \"riemann\" takes its place");
   else if (o.alpha == 0 && o.beta == 0)
-    ignore(setting_warnings, {"viscosity", "viscosity_speed"}, "alpha and beta are zero");
+    ignore(warnings, {"viscosity", "viscosity_speed"}, "alpha and beta are zero");
   if (!riemann && o.artificial_stress == 0 && mixture_of(all).eulerian)
-    ignore(setting_warnings, {"artificial_stress_exponent"}, "artificial_stress is zero");
+    ignore(warnings, {"artificial_stress_exponent"}, "artificial_stress is zero");
   if (o.artificial_stress == 0 && mixture_of(all).lagrangian && mixture_of(all).eulerian)
-    ignore(setting_warnings, {"artificial_stress_interface"}, "artificial_stress is zero");
-  if (!mixture_of(all).lagrangian) ignore(setting_warnings, {"viscosity_form"}, "no particle is total-Lagrangian");
-  if (setting_warnings.has_setting("viscosity_form", "central") && all.settings.published)
-    ignore(setting_warnings, {"viscosity_form"},
+    ignore(warnings, {"artificial_stress_interface"}, "artificial_stress is zero");
+  if (!mixture_of(all).lagrangian) ignore(warnings, {"viscosity_form"}, "no particle is total-Lagrangian");
+  if (warnings.has_setting("viscosity_form", "central") && all.settings.published)
+    ignore(warnings, {"viscosity_form"},
            "correction = \"mixed\" and interface = \"published\" have the published form");
   if (all.settings.published)
-    ignore(setting_warnings, {"hourglass_stiffness"},
-           "it needs viscosity_form = \"central\" and correction = \"material\"");
-  if (o.ignition && !is_explosive(setting_warnings.material()))
-    ignore(setting_warnings, {"ignition"}, "the material is no explosive (eos = \"jwl\")");
-  if (!o.initial_pressure) ignore(setting_warnings, {"initial_pressure_duration"}, "there is no initial_pressure");
-  if (dimension == 3 && setting_warnings.has_setting("assumption", "plane_strain"))
-    ignore(setting_warnings, {"assumption"}, "the body has three dimensions");
+    ignore(warnings, {"hourglass_stiffness"}, "it needs viscosity_form = \"central\" and correction = \"material\"");
+  if (o.ignition && !is_explosive(warnings.material()))
+    ignore(warnings, {"ignition"}, "the material is no explosive (eos = \"jwl\")");
+  if (!o.initial_pressure) ignore(warnings, {"initial_pressure_duration"}, "there is no initial_pressure");
+  if (dimension == 3 && warnings.has_setting("assumption", "plane_strain"))
+    ignore(warnings, {"assumption"}, "the body has three dimensions");
 }
 
 /// Warns of metals without a limit of tension that are Eulerian.
-void doubt_tension(BodyOptions const& o, BodyWarnings& setting_warnings) {
+void warn_of_tension(BodyOptions const& o, BodyWarnings& warnings) {
   bool unlimited = false;
-  with_solid(setting_warnings.material(), [&](auto const& law) {
+  with_solid(warnings.material(), [&](auto const& law) {
     unlimited = !law.brittle && !law.damages && !(law.spall_pressure < unbounded) && law.front_speed() == 0 &&
                 law.yield_stress({}, 0) < unbounded;
   });
   bool const is_eulerian = o.description == Description::eulerian ||
                            (o.description == Description::adaptive && (o.convert_strain < unbounded || o.convert_when));
   if (unlimited && is_eulerian)
-    setting_warnings.add(
+    warnings.add(
         "material.spall_pressure",
         "nothing limits the tension of a metal in Eulerian particles (where it is fast, hundreds of GPa of it, and "
         "energies below zero) - give spall_pressure or a damage law");
 }
 
 /// Criteria of damage for a law without it, and damage from which nothing follows.
-void doubt_damage(BodyOptions const& o, BodyWarnings& setting_warnings) {
+void warn_of_damage(BodyOptions const& o, BodyWarnings& warnings) {
   bool damages = false, scatters = false;
-  with_solid(setting_warnings.material(), [&](auto const& law) {
+  with_solid(warnings.material(), [&](auto const& law) {
     damages = law.damages;
     scatters = law.scatter.modulus < unbounded;
   });
@@ -117,19 +115,18 @@ void doubt_damage(BodyOptions const& o, BodyWarnings& setting_warnings) {
   bool const converts = o.description == Description::adaptive || o.deletes;
   if (!damages) {
     if (scatters)
-      setting_warnings.add("material.weibull_modulus",
-                           fmt::format("weibull_modulus has no effect here ({}) - remove it", cannot));
-    if (converts) ignore(setting_warnings, {"convert_damage"}, cannot);
-    if (o.releases || (o.deletes && o.convert_strain == unbounded)) ignore(setting_warnings, {"failed"}, cannot);
+      warnings.add("material.weibull_modulus",
+                   fmt::format("weibull_modulus has no effect here ({}) - remove it", cannot));
+    if (converts) ignore(warnings, {"convert_damage"}, cannot);
+    if (o.releases || (o.deletes && o.convert_strain == unbounded)) ignore(warnings, {"failed"}, cannot);
     if (!o.convert_when) return;
     auto const words = expression_words(o.convert_when->text());
     if (std::find(words.begin(), words.end(), "damage") != words.end())
-      setting_warnings.add(
-          "formulation.convert_when",
-          "convert_when asks for damage, which stays zero (the law has none that grows) - set damage = "
-          "\"johnson_cook\" or change the formula");
+      warnings.add("formulation.convert_when",
+                   "convert_when asks for damage, which stays zero (the law has none that grows) - set damage = "
+                   "\"johnson_cook\" or change the formula");
   } else if (!converts && !o.releases) {
-    setting_warnings.add(
+    warnings.add(
         "material.damage",
         "damage grows, but nothing follows from it (failed particles keep their stress and stay as they are) - "
         "choose failed or description = \"adaptive\"");
@@ -137,32 +134,32 @@ void doubt_damage(BodyOptions const& o, BodyWarnings& setting_warnings) {
 }
 
 /// Slender elastic bodies that are held bend: the period is wrong and the energy may rise (docs/user/formulations.md).
-void doubt_bending(Assembly const& assembly, std::size_t body, BodyOptions const& o, BodyWarnings& setting_warnings) {
+void warn_of_bending(Assembly const& assembly, std::size_t body, BodyOptions const& o, BodyWarnings& warnings) {
   constexpr int few = 6, slender = 3;
   auto const& lattice = assembly.particles.bodies[body].lattice;
   auto const [least, most] = std::minmax_element(lattice.begin(), lattice.begin() + assembly.particles.dimension);
   bool yields = false;
-  with_solid(setting_warnings.material(), [&](auto const& law) { yields = law.yield_stress({}, 0) < unbounded; });
-  bool const bends = *least > 0 && *least <= few && *most >= slender * *least && setting_warnings.has_support();
+  with_solid(warnings.material(), [&](auto const& law) { yields = law.yield_stress({}, 0) < unbounded; });
+  bool const bends = *least > 0 && *least <= few && *most >= slender * *least && warnings.has_support();
   if (!bends || yields || o.description != Description::total_lagrangian || assembly.particles.dimension == 1) return;
-  setting_warnings.add("formulation",
-                       fmt::format("an elastic body that is held and {} particles across may bend: the energy of "
-                                   "a cantilever of 5 rises by 12 % in half a period - take nodal, or more "
-                                   "particles across",
-                                   *least));
+  warnings.add("formulation",
+               fmt::format("an elastic body that is held and {} particles across may bend: the energy of "
+                           "a cantilever of 5 rises by 12 % in half a period - take nodal, or more "
+                           "particles across",
+                           *least));
 }
 
 }  // namespace
 
-void setting_warning(Assembly const& assembly, std::size_t body, BodyWarnings& setting_warnings) {
+void add_setting_warnings(Assembly const& assembly, std::size_t body, BodyWarnings& warnings) {
   Options const all = read_options(assembly);
   BodyOptions const& o = all.bodies[body];
-  doubt_description(o, all, setting_warnings);
-  doubt_mixture(all, setting_warnings);
-  doubt_forces(o, all, assembly.particles.dimension, setting_warnings);
-  doubt_tension(o, setting_warnings);
-  doubt_damage(o, setting_warnings);
-  doubt_bending(assembly, body, o, setting_warnings);
+  warn_of_description(o, all, warnings);
+  warn_of_mixture(all, warnings);
+  warn_of_forces(o, all, assembly.particles.dimension, warnings);
+  warn_of_tension(o, warnings);
+  warn_of_damage(o, warnings);
+  warn_of_bending(assembly, body, o, warnings);
 }
 
 }  // namespace piola::adaptle

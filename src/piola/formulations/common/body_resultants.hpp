@@ -13,7 +13,7 @@ namespace piola {
 
 /// The sum of of(body) over the bodies; `bodies` holds pointers.
 template <class Bodies, class F>
-auto parallel_sum(Bodies const& bodies, F const& of) {
+auto sum_over_bodies(Bodies const& bodies, F const& of) {
   std::decay_t<decltype(of(*bodies.front()))> sum{};
   for (auto const& body : bodies) sum += of(*body);
   return sum;

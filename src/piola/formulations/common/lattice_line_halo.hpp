@@ -11,8 +11,8 @@
 
 namespace piola {
 
-/// The lattice lines through the local particles of a body, for Observation::add_oscillation. Pressures of ghosts are
-/// exchanged.
+/// The lattice lines through the local particles of a body, for DiagnosticsSum::add_oscillation. Pressures of ghosts
+/// are exchanged.
 class LatticeLineHalo {
  public:
   /// `set`, `order` are kept by reference. Collective.

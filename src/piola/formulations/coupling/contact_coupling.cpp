@@ -172,9 +172,9 @@ void ContactCoupling::give(Formulations const& formulations, double time, double
   work_ -= kept_work.value();
 }
 
-/// Applies the contact impulse of `half` [s] to the bodies (give), adds it to the energy balance (book) and to the
-/// rigid shapes (kick).
-void ContactCoupling::add_velocities(Formulations const& formulations, double time, double half) {
+/// Applies the contact impulse of `half` [s] to the bodies (give), adds it to the energy balance
+/// (add_to_energy_balance) and to the rigid shapes (kick).
+void ContactCoupling::apply_impulses(Formulations const& formulations, double time, double half) {
   give(formulations, time, half);
   add_to_energy_balance(half);
   motion_.kick(system_, time, half);
@@ -244,7 +244,7 @@ void ContactCoupling::begin(Formulations const& formulations, double time, doubl
   std::fill(pair_impulses_.begin(), pair_impulses_.end(), contact::SurfaceContactSystem::ForceMoment{});
   ties_.begin();
   last_dt_ = dt;
-  add_velocities(formulations, time, 0.5 * dt);
+  apply_impulses(formulations, time, 0.5 * dt);
   motion_.move(system_.rigids(), time, dt);
   for (std::size_t r = 0; r < shapes_.size(); ++r) actions_.rigid_about[r] = array_of(system_.rigid(r).centre);
 }
@@ -260,7 +260,7 @@ void ContactCoupling::finish(Formulations const& formulations, double time, doub
   colours_.evaluate(x_, mass_);
   sum_forces();
   friction_work_ += system_.totals().friction_work + motion_.between_shapes().friction_work;
-  add_velocities(formulations, time, 0.5 * dt);
+  apply_impulses(formulations, time, 0.5 * dt);
   damp_chatter(formulations, time);
   closing_ = contact_time_step();
 }

@@ -71,7 +71,7 @@ class ContactCoupling {
   };
 
   static constexpr std::size_t plane = static_cast<std::size_t>(-1);
-  /// Image of a point at a mirror plane, by index into System::ids(): x' = sign x + shift of its source.
+  /// Image of a point at a mirror plane, by index into SurfaceContactSystem::ids(): x' = sign x + shift of its source.
   struct Image {
     Index at, source;
     std::array<double, 3> sign, shift;
@@ -85,7 +85,7 @@ class ContactCoupling {
   void read_masses(Formulations const& formulations);
   void read_state(Formulations const& formulations);
   void drop_lost_surfaces(Formulations const& formulations);
-  void add_velocities(Formulations const& formulations, double time, double half);
+  void apply_impulses(Formulations const& formulations, double time, double half);
   void give(Formulations const& formulations, double time, double half);
   void damp_chatter(Formulations const& formulations, double time);
   void add_to_energy_balance(double half);
@@ -100,8 +100,8 @@ class ContactCoupling {
   contact::SurfaceContactSystem system_;
   contact::RigidMotion motion_;
   std::vector<GroupParticles> shares_;
-  /// Ids in the run by index: those of System::ids(), with -1 for images, then the particles of bodies that are only in
-  /// colour contact.
+  /// Ids in the run by index: those of SurfaceContactSystem::ids(), with -1 for images, then the particles of bodies
+  /// that are only in colour contact.
   std::vector<std::int64_t> run_ids_;
   std::vector<Image> images_;                            ///< by `at`
   std::vector<std::vector<ConstrainedDirection>> held_;  ///< by index into run_ids_

@@ -162,7 +162,7 @@ ContactCoupling::ContactCoupling(Assembly const& whole, MirroredAssembly const& 
   pair_impulses_.resize(n * n);
 }
 
-/// Finds the images in System::ids() and their sources.
+/// Finds the images in SurfaceContactSystem::ids() and their sources.
 void ContactCoupling::find_particles(MirroredAssembly const& continued) {
   auto const& ids = system_.ids();
   std::map<std::int64_t, Index> at;  // of the run's particles

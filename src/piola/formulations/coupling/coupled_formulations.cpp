@@ -68,8 +68,8 @@ class CoupledFormulations : public Formulation, public SetUpChecked {
       : parts_(std::move(parts)),
         formulations_(std::move(formulations)),
         nothing_(whole.supports, whole.loads, whole.rigid_shapes) {
-    if (!whole.surfaces.empty()) meeting_ = std::make_unique<ContactCoupling>(whole, parts_);
-    if (meeting_) meeting_->look(formulations_);
+    if (!whole.surfaces.empty()) contact_ = std::make_unique<ContactCoupling>(whole, parts_);
+    if (contact_) contact_->look(formulations_);
     support_count_ = whole.supports.size();
     for (Load const& load : whole.loads) load_count_ += load.name.empty() ? 0 : 1;
     for (FormulationGroup& part : parts_) {
@@ -81,30 +81,30 @@ class CoupledFormulations : public Formulation, public SetUpChecked {
 
   double stable_time_step() const override {
     double const step = least(&Formulation::stable_time_step);
-    return meeting_ ? meeting_->limit(step) : step;
+    return contact_ ? contact_->limit(step) : step;
   }
   double steady_time_step() const override {
     double const step = least(&Formulation::steady_time_step);
-    return meeting_ ? meeting_->settled(step) : step;
+    return contact_ ? contact_->settled(step) : step;
   }
   StepEstimate step_estimate_of_run() const override;
 
   /// Contact and ties act before and after the steps of the parts, when all bodies are at the same time.
   void step(double time, double dt) override {
-    if (meeting_) meeting_->begin(formulations_, time, dt);
+    if (contact_) contact_->begin(formulations_, time, dt);
     for (auto const& formulation : formulations_) formulation->step(time, dt);
-    if (meeting_) meeting_->finish(formulations_, time + dt, dt);
+    if (contact_) contact_->finish(formulations_, time + dt, dt);
   }
   void damp(double factor) override {
     for (auto const& formulation : formulations_) formulation->damp(factor);
-    if (meeting_) meeting_->damp(factor);
+    if (contact_) contact_->damp(factor);
   }
   double kinetic_energy() const override {
     double sum = 0;
     for (auto const& formulation : formulations_) sum += formulation->kinetic_energy();
-    return meeting_ ? sum + meeting_->kinetic_energy() : sum;
+    return contact_ ? sum + contact_->kinetic_energy() : sum;
   }
-  std::vector<RigidState> rigids() const override { return meeting_ ? meeting_->rigids() : std::vector<RigidState>{}; }
+  std::vector<RigidState> rigids() const override { return contact_ ? contact_->rigids() : std::vector<RigidState>{}; }
   std::optional<Failure> failure() const override;
   Diagnostics diagnose() const override;
   std::vector<FieldInfo> fields() const override;
@@ -117,16 +117,16 @@ class CoupledFormulations : public Formulation, public SetUpChecked {
       PrefixedStateWriter part(writer, parts_[k].name + ".", {k, parts_.size()});
       formulations_[k]->save(part);
     }
-    if (meeting_) meeting_->save(writer);
+    if (contact_) contact_->save(writer);
   }
   void load(StateReader& reader) override {
     for (std::size_t k = 0; k < parts_.size(); ++k) {
       PrefixedStateReader part(reader, parts_[k].name + ".", {k, parts_.size()});
       formulations_[k]->load(part);
     }
-    if (!meeting_) return;
-    meeting_->load(reader);
-    meeting_->look(formulations_);
+    if (!contact_) return;
+    contact_->load(reader);
+    contact_->look(formulations_);
   }
   int stages_per_step() const override {
     return static_cast<int>(
@@ -153,7 +153,7 @@ class CoupledFormulations : public Formulation, public SetUpChecked {
   std::size_t memory_bytes() const override {
     std::size_t sum = 0;
     for (auto const& formulation : formulations_) sum += formulation->memory_bytes();
-    return sum + (meeting_ ? meeting_->bytes() : 0);
+    return sum + (contact_ ? contact_->bytes() : 0);
   }
 
  private:
@@ -183,7 +183,7 @@ class CoupledFormulations : public Formulation, public SetUpChecked {
 
   std::vector<FormulationGroup> parts_;
   std::vector<std::unique_ptr<Formulation>> formulations_;
-  std::unique_ptr<ContactCoupling> meeting_;  ///< if there is surface contact
+  std::unique_ptr<ContactCoupling> contact_;  ///< if there is surface contact
   Resultants nothing_;                        ///< all that can act, in the order of the case, at rest
   std::vector<double> counts_;                ///< particles by part
   std::size_t body_count_ = 0, support_count_ = 0, load_count_ = 0;
@@ -200,7 +200,7 @@ StepEstimate CoupledFormulations::step_estimate_of_run() const {
     rule = here;
     rule.limit += " (" + parts_[k].formulation + ")";
   }
-  if (double const tied = meeting_ ? meeting_->settled(rule.settled) : rule.settled; tied < rule.settled) {
+  if (double const tied = contact_ ? contact_->settled(rule.settled) : rule.settled; tied < rule.settled) {
     rule.settled = tied;
     rule.limit += ", with ties between bodies";
   }
@@ -216,7 +216,7 @@ std::optional<Failure> CoupledFormulations::failure() const {
     if (here->particle >= 0) here->particle = parts_[k].id_in_whole(here->particle);
     if (!first || here->particle < first->particle) first = std::move(here);
   }
-  if (!first && meeting_) first = meeting_->failure();
+  if (!first && contact_) first = contact_->failure();
   return first;
 }
 
@@ -239,14 +239,14 @@ Diagnostics CoupledFormulations::diagnose() const {
   for (auto& [name, value] : sum.more)
     if (tells_balance && name == "centred_energy") value = balanced;
   sum.actions = actions_of(all);
-  if (meeting_) meeting_->report(sum);
+  if (contact_) contact_->report(sum);
   return sum;
 }
 
 /// Supports, named loads and rigid shapes in the order of the case, then pairs of bodies in contact. Parts of the same
 /// support or shape are summed.
 std::vector<Action> CoupledFormulations::actions_of(std::vector<Diagnostics> const& of_parts) const {
-  std::vector<Action> sum = meeting_ ? meeting_->actions() : nothing_.report();
+  std::vector<Action> sum = contact_ ? contact_->actions() : nothing_.report();
   auto const take = [&](Action const& action, std::size_t place) {
     add(sum[place].force, action.force);
     add(sum[place].moment, action.moment);
@@ -262,8 +262,8 @@ std::vector<Action> CoupledFormulations::actions_of(std::vector<Diagnostics> con
     for (std::size_t const r : part.rigid_shapes)
       if (next < actions.size()) take(actions[next++], support_count_ + load_count_ + r);
   }
-  if (meeting_)
-    for (Action& pair : meeting_->pairs()) sum.push_back(std::move(pair));
+  if (contact_)
+    for (Action& pair : contact_->pairs()) sum.push_back(std::move(pair));
   return sum;
 }
 
@@ -277,7 +277,7 @@ std::vector<FieldInfo> CoupledFormulations::fields() const {
 }
 
 std::vector<FieldInfo> CoupledFormulations::with_contact(std::vector<FieldInfo> all) const {
-  if (meeting_)
+  if (contact_)
     for (FieldInfo& info : ContactCoupling::fields()) all.push_back(std::move(info));
   return all;
 }
@@ -297,7 +297,7 @@ FieldInfo const* find_field(std::span<FieldInfo const> fields, std::string_view 
 void CoupledFormulations::sample(std::string_view field, std::span<double> values) const {
   bool const wanted = comm::rank() == 0;  // other ranks take part
   std::fill(values.begin(), values.end(), 0.0);
-  if (meeting_ && meeting_->sample(field, values)) return;
+  if (contact_ && contact_->sample(field, values)) return;
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     auto const fields = formulations_[k]->fields();
     FieldInfo const* const info = find_field(fields, field);
@@ -323,11 +323,11 @@ std::optional<std::vector<std::int64_t>> CoupledFormulations::local_particles() 
 void CoupledFormulations::sample_local(std::string_view field, std::span<double> values) const {
   if (!comm::is_parallel()) return sample(field, values);
   auto const width = static_cast<std::size_t>(info_of(fields(), field).components);
-  if (meeting_ && find_field(ContactCoupling::fields(), field) != nullptr) {
+  if (contact_ && find_field(ContactCoupling::fields(), field) != nullptr) {
     double particles = 0;
     for (double const count : counts_) particles += count;
     std::vector<double> all(static_cast<std::size_t>(particles) * width, 0);  // every rank has them
-    meeting_->sample(field, all);
+    contact_->sample(field, all);
     auto const mine = *local_particles();
     for (std::size_t k = 0; k < mine.size(); ++k)
       std::copy_n(&all[static_cast<std::size_t>(mine[k]) * width], width, &values[k * width]);

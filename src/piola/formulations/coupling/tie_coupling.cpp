@@ -12,7 +12,7 @@ constexpr std::size_t numbers_of_impulse = 6;
 
 std::array<double, 3> scaled(double factor, Vec<3> const& a) { return {factor * a[0], factor * a[1], factor * a[2]}; }
 
-/// Initial positions of particles [m], by index into System::ids().
+/// Initial positions of particles [m], by index into SurfaceContactSystem::ids().
 std::vector<Vec<3>> starts(Assembly const& whole, std::vector<std::int64_t> const& ids) {
   std::vector<Vec<3>> x;
   for (auto const id : ids) {

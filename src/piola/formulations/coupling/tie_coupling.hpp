@@ -15,7 +15,7 @@ class TieCoupling {
   TieCoupling(Assembly const& whole, contact::SurfaceContactSystem& system);
 
   /// Evaluates the forces of the current state: before the first step and after loading a checkpoint. x [m] and masses
-  /// [kg] by index into System::ids().
+  /// [kg] by index into SurfaceContactSystem::ids().
   void look(contact::SurfaceContactSystem& system, std::vector<Vec<3>> const& x, std::vector<double> const& masses);
   void evaluate(contact::SurfaceContactSystem& system, std::vector<Vec<3>> const& x);  ///< also sets the tie forces on
                                                                                        ///< rigid shapes in `system`

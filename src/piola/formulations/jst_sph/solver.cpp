@@ -100,7 +100,7 @@ class Solver final : public Formulation {
     add_velocities_of(bodies_, set_.dimension, slots_, ids, change);
   }
   double kinetic_energy() const override {
-    return parallel_sum(bodies_, [](auto const& body) { return body.kinetic_energy(); });
+    return sum_over_bodies(bodies_, [](auto const& body) { return body.kinetic_energy(); });
   }
 
   std::optional<Failure> failure() const override;

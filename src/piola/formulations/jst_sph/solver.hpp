@@ -11,6 +11,6 @@ namespace piola::jst_sph {
 std::unique_ptr<Formulation> make(Assembly const& assembly);
 
 /// Adds warnings about one body of a valid case.
-void setting_warning(Assembly const& assembly, std::size_t body, BodyWarnings& setting_warnings);
+void add_setting_warnings(Assembly const& assembly, std::size_t body, BodyWarnings& warnings);
 
 }  // namespace piola::jst_sph

@@ -103,7 +103,7 @@ struct BodyState {
   ListTable list;
 
   // Reference: tributary volume, in the operators with mirror planes that of the continued body; weight of sums over
-  // the body itself; corrections (tables.hpp).
+  // the body itself; corrections (pair_table_views.hpp).
   FieldRef V, weight, C, G, alpha, beta, diagonal;
   // Evolved. `v` is p / rho0. For the mixed variables `u` is v itself; for displacement it is the stage's position.
   FieldRef x, v, F, wave_speed;

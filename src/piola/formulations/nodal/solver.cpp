@@ -100,7 +100,7 @@ class Solver final : public Formulation, public SetUpChecked {
     ends_step_ = false;
   }
   double kinetic_energy() const override {
-    return parallel_sum(bodies_, [](auto const& body) { return body.kinetic_energy(); });
+    return sum_over_bodies(bodies_, [](auto const& body) { return body.kinetic_energy(); });
   }
 
   std::optional<Failure> failure() const override;

@@ -11,15 +11,14 @@ namespace piola::nodal {
 namespace {
 
 /// Damage is recorded here; nothing becomes of it.
-void doubt_damage(std::vector<MaterialParameters> const& materials, BodyWarnings& setting_warnings) {
+void warn_of_damage(std::vector<MaterialParameters> const& materials, BodyWarnings& warnings) {
   bool damages = false;
   for (MaterialParameters const& material : materials)
     with_solid(material, [&](auto const& law) { damages = damages || law.damages; });
   if (damages)
-    setting_warnings.add(
-        "material.damage",
-        "damage is recorded, but does not weaken the material (nodal lets no particle fail) - set damage = "
-        "\"none\" and spall = \"limit\", or take the formulation adaptle");
+    warnings.add("material.damage",
+                 "damage is recorded, but does not weaken the material (nodal lets no particle fail) - set damage = "
+                 "\"none\" and spall = \"limit\", or take the formulation adaptle");
 }
 
 /// Whether a pressure differs along its face at any of a few times.
@@ -31,13 +30,13 @@ bool varies(Load const& load, ParticleSet const& particles) {
 
 /// A pressure that follows its face and varies along it is no conservative load: it can feed short waves of the face
 /// without end (docs/theory/nodal.md, section 6), of which nodal takes nothing.
-void doubt_following_pressures(Assembly const& assembly, std::size_t body, BodyWarnings& setting_warnings) {
+void warn_of_following_pressures(Assembly const& assembly, std::size_t body, BodyWarnings& warnings) {
   Body const& own = assembly.particles.bodies[body];
-  if (setting_warnings.has_setting("fluctuation_viscosity")) return;
+  if (warnings.has_setting("fluctuation_viscosity")) return;
   for (Load const& load : assembly.loads) {
     bool const here = !load.particles.empty() && load.particles[0] >= own.first && load.particles[0] < own.last;
     if (!here || !load.follows || !varies(load, assembly.particles)) continue;
-    setting_warnings.add(
+    warnings.add(
         "formulation",
         fmt::format("load '{}' is a pressure that follows the face and varies along it: it is not conservative "
                     "and may feed short waves, which nodal does not damp - give fluctuation_viscosity = 0.05",
@@ -48,18 +47,18 @@ void doubt_following_pressures(Assembly const& assembly, std::size_t body, BodyW
 }  // namespace
 
 /// Three particles across are a little stiff in bending near incompressibility (docs/theory/nodal.md, section 5).
-void setting_warning(Assembly const& assembly, std::size_t body, BodyWarnings& setting_warnings) {
+void add_setting_warnings(Assembly const& assembly, std::size_t body, BodyWarnings& warnings) {
   constexpr double nearly = 0.4901;
   constexpr int few = 3;
   auto const& lattice = assembly.particles.bodies[body].lattice;
   int const across = *std::min_element(lattice.begin(), lattice.begin() + assembly.particles.dimension);
-  doubt_damage(materials_of(assembly, body), setting_warnings);
-  doubt_following_pressures(assembly, body, setting_warnings);
+  warn_of_damage(materials_of(assembly, body), warnings);
+  warn_of_following_pressures(assembly, body, warnings);
   double ratio = 0;
   for (MaterialParameters const& material : materials_of(assembly, body))
     ratio = std::max(ratio, poissons_ratio_of(material));
   if (across > few || !(ratio > nearly) || assembly.particles.dimension == 1) return;
-  setting_warnings.add(
+  warnings.add(
       "material.poissons_ratio",
       fmt::format("poissons_ratio is {}, and {} particles across are some percent too stiff in bending there - use "
                   "more particles across",

@@ -101,7 +101,7 @@ class Solver final : public Formulation {
     for (auto const& body : bodies_) body->velocities_changed();
   }
   double kinetic_energy() const override {
-    return parallel_sum(bodies_, [](auto const& body) { return body.kinetic_energy(); });
+    return sum_over_bodies(bodies_, [](auto const& body) { return body.kinetic_energy(); });
   }
 
   std::optional<Failure> failure() const override;
@@ -145,7 +145,7 @@ class Solver final : public Formulation {
     return {{"triangulation", sum.triangulation}, {"neighbour_lists", sum.lists}};
   }
   std::size_t memory_bytes() const override {
-    return parallel_sum(bodies_, [](auto const& body) { return body.bytes(); });
+    return sum_over_bodies(bodies_, [](auto const& body) { return body.bytes(); });
   }
 
  private:

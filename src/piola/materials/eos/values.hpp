@@ -8,7 +8,7 @@
 
 namespace piola::inline PIOLA_BACKEND {
 
-/// The word `eos` of a solid, in the order of the equations of state in solids.hpp.
+/// The word `eos` of a solid, in the order of the equations of state in hypoelastic_registry.hpp.
 inline constexpr std::array<std::string_view, 5> eos_words{"elastic", "stiffened_gas", "mie_grueneisen", "polynomial",
                                                            "jwl"};
 

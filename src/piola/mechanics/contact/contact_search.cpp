@@ -129,14 +129,14 @@ void SurfaceContactSystem::list_points_near_rigids() {
 void SurfaceContactSystem::activate(std::vector<char> const& points) {
   std::vector<char> carries(at(hosts_.count()), 0);
   active_points_.clear();
-  active_carriers_.clear();
+  active_hosts_.clear();
   for (std::size_t k = 0; k < points_.size(); ++k) {
     if (points[k] == 0) continue;
     active_points_.push_back(static_cast<Index>(k));
     carries[at(points_[k].host)] = 1;
   }
   for (std::size_t k = 0; k < carries.size(); ++k)
-    if (carries[k] != 0) active_carriers_.push_back(static_cast<Index>(k));
+    if (carries[k] != 0) active_hosts_.push_back(static_cast<Index>(k));
 }
 
 void SurfaceContactSystem::make_lists(std::vector<Vec<3>> const& x) {

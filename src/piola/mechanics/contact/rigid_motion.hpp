@@ -10,7 +10,7 @@
 namespace piola::contact {
 
 /// Motion of all rigid shapes of a run: driven ones as prescribed, free ones by bodies, gravity and other shapes. Sets
-/// the surfaces of a System and reads the forces of bodies from it.
+/// the surfaces of a SurfaceContactSystem and reads the forces of bodies from it.
 class RigidMotion {
  public:
   RigidMotion(std::vector<RigidShape> const& shapes, int dimension, RigidPairs::Setting const& between);

@@ -55,8 +55,8 @@ RigidPairs::RigidPairs(std::vector<RigidShape> const& shapes, int dimension, Set
     }
 }
 
-std::vector<RigidPairs::PairSetting> RigidPairs::touches(Pair const& pair,
-                                                         std::vector<RigidSurface> const& shapes) const {
+std::vector<RigidPairs::ContactPoint> RigidPairs::touches(Pair const& pair,
+                                                          std::vector<RigidSurface> const& shapes) const {
   RigidSurface const &a = shapes[pair.a], &b = shapes[pair.b];
   if (pair.sampled) return sampled_touches(samples_[pair.a], a, b);
   if (a.kind == Kind::sphere) {
@@ -64,7 +64,7 @@ std::vector<RigidPairs::PairSetting> RigidPairs::touches(Pair const& pair,
     double const gap = d.value - a.radius;
     return {{a.centre - (a.radius + 0.5 * gap) * d.normal, d.normal, gap}};
   }
-  std::vector<PairSetting> all;
+  std::vector<ContactPoint> all;
   auto const add = [&](Vec<3> const& y) { all.push_back({y, b.axis, distance_from(b, y).value}); };
   if (a.kind == Kind::cylinder) {
     double const along = dot(b.axis, a.axis);
@@ -87,15 +87,15 @@ std::vector<RigidPairs::PairSetting> RigidPairs::touches(Pair const& pair,
 }
 
 /// Empty for a distant body; else the points that are near enough for this step and the next.
-std::vector<RigidPairs::PairSetting> RigidPairs::sampled_touches(std::vector<SurfaceSample> const& samples,
-                                                                 RigidSurface const& a, RigidSurface const& b) const {
+std::vector<RigidPairs::ContactPoint> RigidPairs::sampled_touches(std::vector<SurfaceSample> const& samples,
+                                                                  RigidSurface const& a, RigidSurface const& b) const {
   Vec<3> const between = a.centre - b.centre;
   double const apart = std::sqrt(square_of(between)), gap = apart - reach_of(a) - reach_of(b);
   if (gap > setting_.spacing) {
     Vec<3> const n = (1 / apart) * between;
     return {{b.centre + reach_of(b) * n, n, gap, 0}};
   }
-  std::vector<PairSetting> all;
+  std::vector<ContactPoint> all;
   for (SurfaceSample const& sample : samples) {
     Vec<3> const y = a.centre + a.turn * sample.arm;
     Distance const d = distance_from(b, y);
@@ -109,7 +109,7 @@ void RigidPairs::add(std::size_t shape, Vec<3> const& arm, Vec<3> const& force) 
 }
 
 /// Friction on shape a.
-Vec<3> RigidPairs::apply_friction(std::size_t pair, std::size_t point, PairSetting const& touch, double normal_force,
+Vec<3> RigidPairs::apply_friction(std::size_t pair, std::size_t point, ContactPoint const& touch, double normal_force,
                                   std::vector<RigidSurface> const& shapes) {
   Pair const& p = pairs_[pair];
   RigidSurface const &a = shapes[p.a], &b = shapes[p.b];
@@ -125,7 +125,7 @@ Vec<3> RigidPairs::apply_friction(std::size_t pair, std::size_t point, PairSetti
   return now.spring.force;
 }
 
-void RigidPairs::push(std::size_t pair, std::size_t point, PairSetting const& touch,
+void RigidPairs::push(std::size_t pair, std::size_t point, ContactPoint const& touch,
                       std::vector<RigidSurface> const& shapes) {
   Pair const& p = pairs_[pair];
   RigidSurface const &a = shapes[p.a], &b = shapes[p.b];
@@ -169,7 +169,7 @@ void RigidPairs::evaluate(std::vector<RigidSurface> const& shapes, double dt) {
   std::fill(loads_.begin(), loads_.end(), Load{});
   std::fill(frequency2_.begin(), frequency2_.end(), 0.0);
   for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
-    std::vector<PairSetting> const all = touches(pairs_[pair], shapes);
+    std::vector<ContactPoint> const all = touches(pairs_[pair], shapes);
     for (std::size_t point = 0; point < all.size(); ++point) push(pair, point, all[point], shapes);
   }
   remember(shapes);
@@ -191,7 +191,7 @@ double RigidPairs::contact_time_step(std::vector<RigidSurface> const& shapes) co
     if (double const omega2 = frequency2_[p.a] + frequency2_[p.b]; omega2 > 0)
       step = std::min(step, resolved / std::sqrt(omega2));
   for (Pair const& p : pairs_)
-    for (PairSetting const& touch : touches(p, shapes)) {
+    for (ContactPoint const& touch : touches(p, shapes)) {
       double const speed = dot(shapes[p.b].velocity_at(touch.y) - shapes[p.a].velocity_at(touch.y), touch.normal);
       double const way = closing_share * setting_.spacing + 0.5 * std::max(touch.gap, 0.0);
       if (speed > 0) step = std::min(step, way / speed);

@@ -36,7 +36,7 @@ class RigidPairs {
   double frequency2(std::vector<double>& of_shapes) const;
 
   struct Totals {
-    double energy = 0, spring_energy = 0, friction_work = 0;  ///< as in System [J]
+    double energy = 0, spring_energy = 0, friction_work = 0;  ///< as in SurfaceContactSystem [J]
     double deepest = 0;                                       ///< in spacings
     double touched = 0;                                       ///< points
   };
@@ -57,7 +57,7 @@ class RigidPairs {
     bool sampled;
   };
   /// A contact point of a pair, or a possible one.
-  struct PairSetting {
+  struct ContactPoint {
     Vec<3> y, normal;   ///< [m]; that of b
     double gap;         ///< [m]
     double weight = 1;  ///< of sampled surfaces: the area [m2]
@@ -69,11 +69,11 @@ class RigidPairs {
     bool operator<(StickState const& o) const { return pair != o.pair ? pair < o.pair : point < o.point; }
   };
 
-  std::vector<PairSetting> touches(Pair const& pair, std::vector<RigidSurface> const& shapes) const;
-  std::vector<PairSetting> sampled_touches(std::vector<SurfaceSample> const& samples, RigidSurface const& a,
-                                           RigidSurface const& b) const;
-  void push(std::size_t pair, std::size_t point, PairSetting const& touch, std::vector<RigidSurface> const& shapes);
-  Vec<3> apply_friction(std::size_t pair, std::size_t point, PairSetting const& touch, double normal_force,
+  std::vector<ContactPoint> touches(Pair const& pair, std::vector<RigidSurface> const& shapes) const;
+  std::vector<ContactPoint> sampled_touches(std::vector<SurfaceSample> const& samples, RigidSurface const& a,
+                                            RigidSurface const& b) const;
+  void push(std::size_t pair, std::size_t point, ContactPoint const& touch, std::vector<RigidSurface> const& shapes);
+  Vec<3> apply_friction(std::size_t pair, std::size_t point, ContactPoint const& touch, double normal_force,
                         std::vector<RigidSurface> const& shapes);
   void add(std::size_t shape, Vec<3> const& arm, Vec<3> const& force);
   void remember(std::vector<RigidSurface> const& shapes);

@@ -37,8 +37,8 @@ class Bonds {
 
   /// Calls found(j) for all particles nearer than `reach` [m] to the particle k along bonds, k included, by distance.
   /// `distance` has one entry for each particle, infinite before and after.
-  template <class TieReport>
-  void within(Index k, double reach, std::vector<double>& distance, TieReport const& found) const {
+  template <class F>
+  void within(Index k, double reach, std::vector<double>& distance, F const& found) const {
     using Far = std::pair<double, Index>;
     std::priority_queue<Far, std::vector<Far>, std::greater<>> ahead;
     std::vector<Index> seen{k};
@@ -72,13 +72,13 @@ SelfContactExclusions::SelfContactExclusions(ParticleSet const& particles, std::
   Body const& body = particles.bodies[b];
   Bonds const bonds(particles, body, spacing);
   constexpr Index none = -1;
-  std::vector<Index> carrier_of(bonds.count(), none), particle_of;  // particles count from the body's first
+  std::vector<Index> host_of(bonds.count(), none), particle_of;  // particles count from the body's first
   for (Index k = 0; k < hosts.count(); ++k) {
     auto const id = hosts.ids()[static_cast<std::size_t>(hosts.self(k))];
     if (id < body.first || id >= body.last) continue;
     if (particle_of.empty()) first_ = k;
     particle_of.push_back(static_cast<Index>(id - body.first));
-    carrier_of[static_cast<std::size_t>(id - body.first)] = k;
+    host_of[static_cast<std::size_t>(id - body.first)] = k;
   }
   near_.resize(particle_of.size());
   constexpr Index parts = 64;
@@ -86,7 +86,7 @@ SelfContactExclusions::SelfContactExclusions(ParticleSet const& particles, std::
     std::vector<double> distance(bonds.count(), std::numeric_limits<double>::infinity());
     for (auto n = static_cast<std::size_t>(part); n < near_.size(); n += parts) {
       bonds.within(particle_of[n], nearest_stranger * spacing, distance, [&](Index other) {
-        if (Index const k = carrier_of[static_cast<std::size_t>(other)]; k != none) near_[n].push_back(k);
+        if (Index const k = host_of[static_cast<std::size_t>(other)]; k != none) near_[n].push_back(k);
       });
       std::sort(near_[n].begin(), near_[n].end());
     }

@@ -90,8 +90,8 @@ void SurfaceContactSystem::set_masses(std::vector<double> const& masses) {
 }
 
 void SurfaceContactSystem::place_points(std::vector<Vec<3>> const& x) {
-  exec_host::parallel_for(static_cast<Index>(active_carriers_.size()), [&](Index k) {
-    Index const host = active_carriers_[at(k)];
+  exec_host::parallel_for(static_cast<Index>(active_hosts_.size()), [&](Index k) {
+    Index const host = active_hosts_[at(k)];
     F_[at(host)] = hosts_.F(host, x);
     if (has_friction_) knows_F_[at(host)] = 1;
   });
@@ -263,7 +263,7 @@ void SurfaceContactSystem::evaluate(std::vector<Vec<3>> const& x, double dt) {
   std::swap(deep_, last_deep_);
   stuck_.clear();
   deep_.clear();
-  add_velocities_of(x);
+  evaluate_forces(x);
   count_passed();
   std::sort(stuck_.begin(), stuck_.end());
   book_lost_springs();
@@ -305,7 +305,7 @@ void SurfaceContactSystem::forget_forces() {
   sums_.springs_of_shape.resize(rigids_.size());
 }
 
-void SurfaceContactSystem::add_velocities_of(std::vector<Vec<3>> const& x) {
+void SurfaceContactSystem::evaluate_forces(std::vector<Vec<3>> const& x) {
   forget_forces();
   if (active_points_.empty()) return;
   place_points(x);

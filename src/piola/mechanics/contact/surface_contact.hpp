@@ -230,7 +230,7 @@ class SurfaceContactSystem {
     return setting_[body][surfaces_.size() + rigid];
   }
   void place_points(std::vector<Vec<3>> const& x);
-  void add_velocities_of(std::vector<Vec<3>> const& x);
+  void evaluate_forces(std::vector<Vec<3>> const& x);
   void forget_forces();
   void place_anew(std::vector<Vec<3>> const& x);
   void remember(std::vector<Vec<3>> const& x);
@@ -287,7 +287,7 @@ class SurfaceContactSystem {
   std::vector<Kept> kept_;  ///< by point and shape
   std::vector<Deep> deep_, last_deep_;
   std::vector<Passed> passed_;
-  std::vector<Index> active_points_, active_carriers_;
+  std::vector<Index> active_points_, active_hosts_;
   std::vector<Mat<3>> F_;         ///< of active host particles, by host
   std::vector<Plane> planes_;     ///< of active points, by point
   std::vector<PointLoad> loads_;  ///< by point

@@ -15,7 +15,7 @@ namespace piola::contact {
 /// The ties of a run: springs with memory between surface points of one body and their initial positions on the other
 /// one. A jump is a constant linear function of the positions of particles, jump_a = y_a - sum_b N_ab (y_b + F_b R_ab)
 /// = sum_i c_ai x_i with sum_i c_ai = 0, so that ties are rows of numbers. With a rigid shape jump_a = y_a - (c + R
-/// arm), with the arm in the axes of the shape. Particles are indices into Carriers::ids().
+/// arm), with the arm in the axes of the shape. Particles are indices into HostParticles::ids().
 class Ties {
  public:
   Ties() = default;
