@@ -197,8 +197,7 @@ TEST(Expression, OtherTonguesAreTranslated) {
 TEST(Expression, UnitsInAFormulaAreNamed) {
   std::string const advice =
       "which cannot stand in a formula (numbers are in SI) - write the number in SI, or name the quantity in "
-      "constants, "
-      "e.g. a = \"5 mm\"";
+      "constants, e.g. a = \"5 mm\"";
   for (char const* const text : {"X <= 5 mm", "X <= 5mm", "X <= 5*mm", "X/mm", "(X + 2) mm", "2.5e3mm"}) {
     EXPECT_EQ(error_of(text).text, "\"mm\" is a unit, " + advice) << text;
   }

@@ -73,11 +73,9 @@ TEST(ContactMessages, WhatCannotMeetIsRefused) {
   std::string const skew = "[[mirror]]\nbody = \"a\"\nface = \"-x\"\nantisymmetric = true\n";
   EXPECT_EQ(two("jst_sph", "nodal", skew),
             "case.toml:8:15: body \"a\": nothing keeps it apart from \"b\" (it has antisymmetric mirror planes), so "
-            "that they "
-            "would pass through one another (allowed: nodal, jst_sph, taylor_sph and total-Lagrangian adaptle, without "
-            "antisymmetric mirrors) - change the body; or say contact = \"none\", or law = \"none\" in [[contact]] "
-            "between them, "
-            "if they are not to be in contact");
+            "that they would pass through one another (allowed: nodal, jst_sph, taylor_sph and total-Lagrangian "
+            "adaptle, without antisymmetric mirrors) - change the body; or say contact = \"none\", or law = \"none\" "
+            "in [[contact]] between them, if they are not to be in contact");
   EXPECT_EQ(two("jst_sph", "nodal", skew + "[contact]\nlaw = \"none\"\n"), "");
   EXPECT_EQ(two("jst_sph", "nodal", skew + "[[contact]]\nbetween = [\"b\", \"a\"]\nlaw = \"none\"\n"), "");
 }

@@ -82,8 +82,7 @@ TEST(DescribeCommand, ExplainsOneThingOrListsAll) {
   EXPECT_EQ(unknown.code, 2);
   EXPECT_EQ(unknown.text,
             "piola: no law or material is named \"neo_hooken\" (known: neo_hookean, johnson_cook, mooney_rivlin, "
-            "elastic, iron_armco, weldox_460_e, lead, beryllium and 42 more) - "
-            "did you mean \"neo_hookean\"?\n");
+            "elastic, iron_armco, weldox_460_e, lead, beryllium and 42 more) - did you mean \"neo_hookean\"?\n");
 }
 
 TEST(DescribeCommand, TellsOfSolidsAndOfTheLibrary) {

@@ -55,8 +55,7 @@ TEST(CaseFacts, SolidsInRateFormHaveMassAndWavesToo) {
 TEST(CaseFacts, SlipsOfUnitsAreNoticed) {
   EXPECT_EQ(look(test::sample_with("1100 kg/m^3", "1.1 kg/m^3")).warnings.at(0),
             "case.toml:10:45: body \"column\": density is 1.1 kg/m^3, lighter than foam (solids have 100 to 20000 "
-            "kg/m^3) - was g/cm^3 "
-            "meant?");
+            "kg/m^3) - was g/cm^3 meant?");
   auto const soft = look(test::sample_with("17 MPa", "17 Pa")).warnings;
   EXPECT_TRUE(mentions(
       soft.at(0), {"case.toml:10:77:", "column", "youngs_modulus", "17 Pa", "softer", "1 kPa to 1 TPa", "MPa or GPa"}));
