@@ -63,6 +63,19 @@ void ReferenceLists::build(ParticleSet const& set, std::vector<BodyConstants> co
     rows_.emplace_back(set, LatticeStencils::BodyInput{set.bodies[b], own[b], bodies[b].reference_h}, begin_,
                        neighbour_, lanes, rounded_, components);
   for (LatticeStencils& rows : rows_) row_views_.push_back(rows.view());
+  if (std::all_of(rows_.begin(), rows_.end(), [](LatticeStencils const& rows) { return rows.is_lattice(); })) return;
+  set.dimension == 2 ? allocate_records<2>() : allocate_records<3>();
+}
+
+/// With a filler after the last, whose viscosity is not negative.
+template <int D>
+void ReferenceLists::allocate_records() {
+  using R = MaterialRecord<D>;
+  int const stride = R::stride(published_);
+  records_ = Memory((at(particles_) + 1) * at(stride));
+  double* const filler = records_.data() + std::ptrdiff_t{particles_} * stride;
+  filler[R::viscosity] = 1;
+  if (published_) filler[R::inverse_J] = 1;
 }
 
 void ReferenceLists::find_edge() {
@@ -253,20 +266,21 @@ void ReferenceLists::mark_mixed(Fields const& fields) {
     });
 }
 
-void ReferenceLists::put_into(MaterialTable& table) const {
+void ReferenceLists::put_into(MaterialTable& table) {
   table.begin = begin_.data();
   table.neighbour = neighbour_.data();
   table.gradient = gradient_.data();
   table.s = s_.data();
   table.W = W_.data();
   table.part = part_.data();
+  table.record = records_.data();
   table.rows_of = row_views_.data();
 }
 
 std::size_t ReferenceLists::bytes() const {
   std::size_t rows = 0;
   for (LatticeStencils const& of_body : rows_) rows += of_body.bytes();
-  return rows + part_.size() + sizeof(Offset) * begin_.size() + sizeof(Index) * neighbour_.size() +
+  return rows + records_.bytes() + part_.size() + sizeof(Offset) * begin_.size() + sizeof(Index) * neighbour_.size() +
          sizeof(float) * gradient_.size() + sizeof(double) * (s_.size() + W_.size()) + filled_.size();
 }
 

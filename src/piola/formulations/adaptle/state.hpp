@@ -5,6 +5,8 @@
 #include "piola/materials/registry.hpp"
 #include "piola/neighbours/cell_list.hpp"
 #include "piola/neighbours/pair_table_views.hpp"
+#include <array>
+#include <span>
 
 /// State of an AdapTLE run for its loops: plain data, independent of the instruction set. Particles keep their slots,
 /// those of a body contiguous; data for spatial sums are gathered into the order of the cell grid in every step.
@@ -237,6 +239,15 @@ struct System {
   std::int8_t* conversion_request = nullptr;  ///< conversion request per slot: 0 none, 1 with its neighbours, 2 alone
   double* partial = nullptr;                  ///< room for reductions, 16 per block
   FailureSlot* failure = nullptr;
+
+  /// Per body: the local slots.
+  std::span<Range const> local() const { return {part, static_cast<std::size_t>(bodies)}; }
+  bool is_local(Index slot) const {
+    Range const of_body = part[body_of[slot]];
+    return slot >= of_body.first && slot < of_body.last;
+  }
+  /// Reference position of a local particle or a ghost [m].
+  std::array<double, 3> reference_position(Index slot) const { return point_at(field.X, slot, 3); }
 };
 
 /// Codes of FailureSlot.
