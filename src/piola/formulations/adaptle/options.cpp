@@ -194,21 +194,26 @@ BodyOptions read_body(FormulationSpec const& spec, int dimension, bool springs, 
   return o;
 }
 
-/// Whether material sums are to be as published; `yielding`: some body can flow.
-bool published_form(FormulationSpec const& spec, bool yielding) {
-  std::string_view const form = word(spec, "viscosity_form");
-  return word(spec, "interface") == "published" || word(spec, "correction") == "mixed" || form == "published" ||
-         (form == "auto" && yielding);
+/// yielding: some body can flow.
+EquationSet read_equations(FormulationSpec const& spec, bool yielding) {
+  EquationSet e;
+  e.interface_form = choice_of<Interface>(spec, choices, "interface");
+  std::string_view const viscosity = word(spec, "viscosity_form"), correction = word(spec, "correction");
+  bool const published = e.interface_form == Interface::as_published || correction == "mixed" ||
+                         viscosity == "published" || (viscosity == "auto" && yielding);
+  if (correction == "none")
+    e.form = published ? MaterialForm::published_plain : MaterialForm::plain;
+  else
+    e.form = published ? MaterialForm::published : MaterialForm::corrected;
+  return e;
 }
 
 Settings read_settings(FormulationSpec const& spec, bool yielding) {
   Settings s;
   s.viscosity = choice_of<Viscosity>(spec, choices, "viscosity");
-  s.interface_form = choice_of<Interface>(spec, choices, "interface");
+  s.equations = read_equations(spec, yielding);
   s.mixed_stress = choice_of<MixedStress>(spec, choices, "artificial_stress_interface");
   s.corrected = word(spec, "correction") == "mixed";
-  s.corrected_material = word(spec, "correction") != "none";
-  s.published = published_form(spec, yielding);
   s.plane_stress = word(spec, "assumption") == "plane_stress";
   s.exponent = static_cast<int>(number(spec, "artificial_stress_exponent"));
   s.artificial_stress = number(spec, "artificial_stress") > 0 && s.viscosity != Viscosity::riemann;
@@ -300,7 +305,8 @@ Options read_options(Assembly const& assembly) {
                              std::any_of(assembly.materials.begin(), assembly.materials.end(), yields));
   if (o.settings.plane_stress && dimension != 2)
     problems.add({}, "formulation: assumption = \"plane_stress\" is for bodies in 2D - leave it out");
-  bool const springs = !o.settings.published && o.settings.corrected_material;
+  EquationSet const& equations = o.settings.equations;
+  bool const springs = equations.has_hourglass_stiffness() && equations.has_correction();
   o.settings.cfl = std::isnan(assembly.cfl) ? 0.3 : assembly.cfl;
   check_alike(assembly, problems);
   for (std::size_t b = 0; b < assembly.formulations.size(); ++b) {

@@ -110,7 +110,7 @@ void ParticleData::allocate(Options const& options, bool rigid_shapes) {
   Fields::FieldRequirements needs;
   needs.lagrangian = std::any_of(options.bodies.begin(), options.bodies.end(),
                                  [](BodyOptions const& o) { return o.description != Description::eulerian; });
-  needs.published = options.settings.published;
+  needs.equations = options.settings.equations;
   needs.plane_stress = options.settings.plane_stress;
   needs.touching = body_.size() > 1 || rigid_shapes;
   fields_.allocate(static_cast<Index>(n), needs);
@@ -145,8 +145,7 @@ void ParticleData::set_descriptions(Options const& options) {
       if (patch && !inside) outside.push_back(i);
     }
     double const width = o.blend * body_[k].spacing;
-    if (patch && width != 0 && options.settings.interface_form != Interface::as_published)
-      blend_patch(body_[k], width, outside);
+    if (patch && width != 0 && options.settings.equations.blends()) blend_patch(body_[k], width, outside);
   }
 }
 

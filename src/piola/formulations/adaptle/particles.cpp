@@ -92,7 +92,7 @@ void Particles::choose_material() {
   System& s = data_.system();
   data_.update_kernel_types();
   if (!material_.built()) return;
-  material_.choose(data_.fields(), s.settings.interface_form == Interface::as_published);
+  material_.choose(data_.fields());
   material_.put_into(s.material);
   s.material.used = data_.has_lagrangian();
 }

@@ -33,8 +33,8 @@ template <int D>
 struct MaterialRecord {
   static constexpr int u = 0, v = D, volume = 2 * D, viscosity = 2 * D + 1, X = 2 * D + 2, A = X + D, a = A + D * D,
                        N = a + D, n = N + D * D, inverse_J = n + D;
-  static constexpr int values(bool published) { return published ? inverse_J + 1 : a; }
-  static constexpr int stride(bool published) { return whole(values(published)); }
+  PIOLA_FN static constexpr int values(EquationSet e) { return e.records_deformation() ? inverse_J + 1 : a; }
+  PIOLA_FN static constexpr int stride(EquationSet e) { return whole(values(e)); }
 };
 
 /// A kernel of one smoothing length.

@@ -19,7 +19,7 @@ class ReferenceLists {
 
   /// Determines which particles need a deformation gradient and which receive material forces. Kinematic ones get gap =
   /// 0, others -1. Deleted ones are removed from the sums of their neighbours. Reads phi and active of all particles.
-  void choose(Fields& fields, bool as_published);
+  void choose(Fields& fields);
 
   /// Calls f(b) for the reference neighbours of a within the distance [m].
   template <class F>
@@ -72,17 +72,18 @@ class ReferenceLists {
   void mark_mixed(Fields const& fields);
   void add_pair(int dimension, double h, Index j, double square);
   void correct(Fields& fields, std::vector<BodyConstants> const& bodies, int dimension);
-  void invert(Fields& fields, int dimension, bool corrected);
+  void invert(Fields& fields, int dimension);
   template <class F>
   void sum_gradients(F const& active, Fields& fields);
   /// s of pair k as used by the sums.
   double gradient(Offset k) const {
     auto const place = static_cast<std::size_t>(k);
-    return rounded_ ? static_cast<double>(gradient_[place]) : s_[place];
+    return equations_.rounds_gradients() ? static_cast<double>(gradient_[place]) : s_[place];
   }
 
   Index particles_ = 0;
-  bool published_ = false, rounded_ = false, deleted_ = false;
+  EquationSet equations_;
+  bool deleted_ = false;
   std::vector<Range> own_;
   std::vector<Index> edge_;  ///< local particles with ghost neighbours
   LazyZeroArray<Offset> begin_;

@@ -26,7 +26,7 @@ struct SpatialTarget {
 ///        + m_a m_b Pi/2 (gt_ba - gt_ab) - m_a m_b f^n (R_b gt_ba - R_a gt_ab)
 ///   L_a  = sum_b V_b (v_b - v_a) (x) gt_ab
 /// Heat is half the power of viscosity and artificial stress on the relative velocity; that of stress follows from L.
-/// Total-Lagrangian particles have M = 0, so that the same sums serve mixed pairs. In the printed interface only
+/// Total-Lagrangian particles have M = 0, so that the same sums serve mixed pairs. In the published interface only
 /// Eulerian targets keep stress and viscosity.
 template <int D, bool Corrected, bool Stressed>
 struct SpatialSweep {
@@ -94,7 +94,7 @@ struct SpatialSweep {
     bool const here = own[R::viscosity] > 0;
     Lanes factor = 0.5 * (maximum(f[R::viscosity], -1.0 * f[R::viscosity]) + std::fabs(own[R::viscosity]));
     if (!here) factor = select(f[R::viscosity] > 0.0, factor, Lanes(0.0));
-    if (!here && settings.interface_form == Interface::as_published) factor = Lanes(0.0);
+    if (!here && settings.equations.has_mixed_viscosity()) factor = Lanes(0.0);
     Lanes const pressure = plain * factor;
     Lanes stress_weight = Lanes(0.0);
     if constexpr (Stressed) {
@@ -117,9 +117,9 @@ struct SpatialSweep {
     return sum;
   }
 
-  /// In the published interface total-Lagrangian particles have their stress forces from material sums alone.
+  /// Total-Lagrangian particles have reactions of Eulerian ones, or their stress forces from material sums alone.
   PIOLA_FN bool bears_stress(double const* own) const {
-    return settings.interface_form == Interface::owner || own[R::viscosity] > 0;
+    return settings.equations.has_reactions() || own[R::viscosity] > 0;
   }
 
   [[gnu::always_inline]] PIOLA_FN Lanes mixed_weight(double own, Lanes const& other) const {

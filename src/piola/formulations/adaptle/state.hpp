@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/exec/device_loops.hpp"
 #include "piola/exec/field.hpp"
+#include "piola/formulations/adaptle/equation_set.hpp"
 #include "piola/materials/registry.hpp"
 #include "piola/neighbours/cell_list.hpp"
 #include "piola/neighbours/pair_table_views.hpp"
@@ -13,10 +14,6 @@
 namespace piola::adaptle {
 
 enum class Viscosity { compression, monaghan, balsara, morris_monaghan, riemann };
-enum class Interface {
-  owner,        ///< each particle acts through its own gradients, its neighbours receive the reaction: conserves
-  as_published  ///< each particle sums with its own kernel type over all its neighbours, as published
-};
 /// Artificial stress between a total-Lagrangian and an Eulerian particle.
 enum class MixedStress { both, eulerian_only, none };
 
@@ -188,11 +185,9 @@ struct ContactTable {
 
 struct Settings {
   Viscosity viscosity = Viscosity::compression;
-  Interface interface_form = Interface::owner;
+  EquationSet equations;
   MixedStress mixed_stress = MixedStress::both;
-  bool corrected = false;           ///< spatial sums
-  bool corrected_material = false;  ///< material sums
-  bool published = false;           ///< material sums of set (2), exactly as published
+  bool corrected = false;  ///< spatial sums
   bool plane_stress = false, artificial_stress = false;
   int exponent = 4;         ///< n of the artificial stress
   double fallback = 1e300;  ///< C_f

@@ -108,14 +108,12 @@ struct Step {
   template <class F>
   void with_form(F const& f) const {
     using Form = MaterialForm;
-    if (s.settings.published && s.settings.corrected_material)
-      f(std::integral_constant<Form, Form::published>{});
-    else if (s.settings.published)
-      f(std::integral_constant<Form, Form::published_plain>{});
-    else if (s.settings.corrected_material)
-      f(std::integral_constant<Form, Form::corrected>{});
-    else
-      f(std::integral_constant<Form, Form::plain>{});
+    switch (s.settings.equations.form) {
+      case Form::corrected: return f(std::integral_constant<Form, Form::corrected>{});
+      case Form::plain: return f(std::integral_constant<Form, Form::plain>{});
+      case Form::published: return f(std::integral_constant<Form, Form::published>{});
+      case Form::published_plain: return f(std::integral_constant<Form, Form::published_plain>{});
+    }
   }
 
   /// Local lattice positions of a body.
