@@ -2,6 +2,7 @@
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
+#include "piola/kernels/list.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
 #include <algorithm>
 #include <array>
@@ -38,6 +39,8 @@ constexpr std::array choices{
            "mixed: "
            "of spatial sums, too",
            correction_words},
+    Choice{"kernel", "smoothing kernel of sums over neighbours, support 2h; that of contact is the cubic spline",
+           LaneKernels::names},
     Choice{"viscosity",
            "switch of the artificial viscosity; compression: acts where the material is compressed, not in shear, so "
            "that alpha and beta need no choice by case; monaghan: none, as published; riemann: a flux from Riemann "
@@ -212,6 +215,7 @@ Settings read_settings(FormulationSpec const& spec, bool yielding) {
   Settings s;
   s.viscosity = choice_of<Viscosity>(spec, choices, "viscosity");
   s.equations = read_equations(spec, yielding);
+  s.kernel = find_kernel(word(spec, "kernel"));
   s.mixed_stress = choice_of<MixedStress>(spec, choices, "artificial_stress_interface");
   s.corrected = word(spec, "correction") == "mixed";
   s.plane_stress = word(spec, "assumption") == "plane_stress";
@@ -223,8 +227,8 @@ Settings read_settings(FormulationSpec const& spec, bool yielding) {
 
 /// Checks words and numbers that all bodies must have in common.
 void check_alike(Assembly const& assembly, Problems& problems) {
-  constexpr std::array<std::string_view, 6> shared{
-      "interface", "correction", "viscosity", "viscosity_form", "artificial_stress_interface", "assumption"};
+  constexpr std::array<std::string_view, 7> shared{
+      "interface", "correction", "kernel", "viscosity", "viscosity_form", "artificial_stress_interface", "assumption"};
   auto const& first = assembly.formulations.front();
   for (std::size_t b = 1; b < assembly.formulations.size(); ++b) {
     auto const& other = assembly.formulations[b];

@@ -83,6 +83,7 @@ class ReferenceLists {
 
   Index particles_ = 0;
   EquationSet equations_;
+  piola::Kernel const* kernel_ = nullptr;
   bool deleted_ = false;
   std::vector<Range> own_;
   std::vector<Index> edge_;  ///< local particles with ghost neighbours

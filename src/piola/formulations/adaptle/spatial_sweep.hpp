@@ -28,7 +28,7 @@ struct SpatialTarget {
 /// Heat is half the power of viscosity and artificial stress on the relative velocity; that of stress follows from L.
 /// Total-Lagrangian particles have M = 0, so that the same sums serve mixed pairs. In the published interface only
 /// Eulerian targets keep stress and viscosity.
-template <int D, bool Corrected, bool Stressed>
+template <int D, bool Corrected, bool Stressed, class Shape>
 struct SpatialSweep {
   using R = SpatialRecord<D, Corrected>;
   SpatialTable table;
@@ -51,7 +51,7 @@ struct SpatialSweep {
   PIOLA_FN void visit(Index number) const {
     SpatialTarget const target(table, number);
     BodyConstants const& b = body[body_of[target.slot]];
-    Kernel<D> const kernel(b.h);
+    Kernel<D, Shape> const kernel(b.h);
     double const inverse_reference = 1 / kernel(b.spacing);
     Accumulated sum;
     Lanes const zeros = zeros_from(target.own[R::volume]);
@@ -67,7 +67,7 @@ struct SpatialSweep {
   }
 
   [[gnu::always_inline]] PIOLA_FN void add_pairs(double const* own, Index const* list, Lanes const* f,
-                                                 BodyConstants const& b, Kernel<D> const& kernel,
+                                                 BodyConstants const& b, Kernel<D, Shape> const& kernel,
                                                  double inverse_reference, Accumulated& sum) const {
     Vec<D, Lanes> const r = difference<D>(f, R::x, own), w = difference<D>(f, R::v, own);
     Lanes const square = dot(r, r);
@@ -229,7 +229,7 @@ struct SpatialSweep {
 
 /// Corrections (4), (5) of one spatial target, dropped if they would change a gradient by more than C_f, invert it, or
 /// are singular.
-template <int D>
+template <int D, class Shape>
 struct CorrectSpatial {
   using R = SpatialRecord<D, true>;
   SpatialTable table;
@@ -248,7 +248,7 @@ struct CorrectSpatial {
   PIOLA_FN void visit(Index number) const {
     SpatialTarget const target(table, number);
     BodyConstants const& b = body[body_of[target.slot]];
-    Kernel<D> const kernel(b.h);
+    Kernel<D, Shape> const kernel(b.h);
     Lanes sum[width];
     Lanes const zeros = zeros_from(target.own[R::volume]);
     for (auto& a : sum) a = zeros;
@@ -288,7 +288,8 @@ struct CorrectSpatial {
     if (admissible(target, trial, kernel, b.h)) out = trial;
   }
 
-  PIOLA_FN bool admissible(SpatialTarget const& target, Correction const& k, Kernel<D> const& kernel, double h) const {
+  PIOLA_FN bool admissible(SpatialTarget const& target, Correction const& k, Kernel<D, Shape> const& kernel,
+                           double h) const {
     Mat<D> N;
     Vec<D> n{};
     for (int i = 0; i < D; ++i)

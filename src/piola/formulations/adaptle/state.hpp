@@ -3,6 +3,7 @@
 #include "piola/exec/device_loops.hpp"
 #include "piola/exec/field.hpp"
 #include "piola/formulations/adaptle/equation_set.hpp"
+#include "piola/kernels/registry.hpp"
 #include "piola/materials/registry.hpp"
 #include "piola/neighbours/cell_list.hpp"
 #include "piola/neighbours/pair_table_views.hpp"
@@ -187,7 +188,8 @@ struct Settings {
   Viscosity viscosity = Viscosity::compression;
   EquationSet equations;
   MixedStress mixed_stress = MixedStress::both;
-  bool corrected = false;  ///< spatial sums
+  piola::Kernel const* kernel = nullptr;  ///< of sums over neighbours, one of LaneKernels
+  bool corrected = false;                 ///< spatial sums
   bool plane_stress = false, artificial_stress = false;
   int exponent = 4;         ///< n of the artificial stress
   double fallback = 1e300;  ///< C_f

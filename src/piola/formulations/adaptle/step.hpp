@@ -41,18 +41,14 @@ struct Step {
 
   void correct() const {
     Range const targets{0, s.spatial.targets};
-    exec::for_each_block(targets, CorrectSpatial<D>{s.spatial, s.settings, s.body, s.body_of, s.correction});
+    with_kernel(*s.settings.kernel, LaneKernels{}, [&]<class Shape>() {
+      exec::for_each_block(targets, CorrectSpatial<D, Shape>{s.spatial, s.settings, s.body, s.body_of, s.correction});
+    });
     exec::for_each_block(targets, FoldCorrection<D>{s.spatial, s.correction});
   }
 
   void sweep() const {
-    Range const targets{0, s.spatial.targets};
-    if (s.settings.viscosity == Viscosity::riemann)
-      exec::for_each_block(targets, RiemannSweep<D>{s.spatial, s.body, s.body_of});
-    else if (s.settings.corrected)
-      sweep_space<true>(targets);
-    else
-      sweep_space<false>(targets);
+    with_kernel(*s.settings.kernel, LaneKernels{}, [&]<class Shape>() { sweep_space<Shape>(); });
     with_form([&](auto form) { add_material_forces<form()>(); });
     ParticleFields const& f = s.field;
     exec::for_each_block(Range{0, s.contact.targets},
@@ -143,12 +139,23 @@ struct Step {
     }
   }
 
-  template <bool Corrected>
+  template <class Shape>
+  void sweep_space() const {
+    Range const targets{0, s.spatial.targets};
+    if (s.settings.viscosity == Viscosity::riemann)
+      exec::for_each_block(targets, RiemannSweep<D, Shape>{s.spatial, s.body, s.body_of});
+    else if (s.settings.corrected)
+      sweep_space<Shape, true>(targets);
+    else
+      sweep_space<Shape, false>(targets);
+  }
+
+  template <class Shape, bool Corrected>
   void sweep_space(Range targets) const {
     if (s.settings.artificial_stress)
-      exec::for_each_block(targets, SpatialSweep<D, Corrected, true>{s.spatial, s.settings, s.body, s.body_of});
+      exec::for_each_block(targets, SpatialSweep<D, Corrected, true, Shape>{s.spatial, s.settings, s.body, s.body_of});
     else
-      exec::for_each_block(targets, SpatialSweep<D, Corrected, false>{s.spatial, s.settings, s.body, s.body_of});
+      exec::for_each_block(targets, SpatialSweep<D, Corrected, false, Shape>{s.spatial, s.settings, s.body, s.body_of});
   }
 
   /// Reduces the results of the step over ranks.
