@@ -50,6 +50,7 @@ TEST(AdaptleMessages, PlaneStressIsForTwoDimensions) {
 TEST(AdaptleMessages, PairsOfBodiesShareTheirSettings) {
   for (auto const& [name, first, other] : {std::array<std::string, 3>{"interface", "owner", "published"},
                                            {"correction", "material", "mixed"},
+                                           {"kernel", "cubic_spline", "wendland_c2"},
                                            {"viscosity", "compression", "balsara"},
                                            {"viscosity_form", "auto", "central"},
                                            {"artificial_stress_interface", "both", "none"},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The forces of one step of a random cloud: balances of momentum, energy and angular momentum, and linear fields.
+#include "piola/kernels/list.hpp"
 #include "formulations/adaptle/clouds.hpp"
 
 namespace piola {
@@ -290,6 +291,42 @@ TEST(AdaptleBalances, ThePrintedInterfaceHasExactGradientsToo) {
   cloud.evaluate();
   Mat<3> const A{{0, 40, 0, 0, 10, 0, 0, 0, 0}};
   for (Index i = 0; i < cloud.size(); ++i) EXPECT_LT(size(cloud.velocity_gradient(i) - A), 1e-11);
+}
+
+TEST(AdaptleBalances, HoldWithEveryKernel) {
+  for (std::string_view const kernel : LaneKernels::names)
+    for (Mixture const m : {Mixture::eulerian, Mixture::lagrangian, Mixture::halves})
+      for (std::string const correction : {"material", "mixed"}) {
+        Kind const k{2, m, correction, "auto"};
+        Assembly a = cloud_assembly(k);
+        choose(a, "kernel", std::string(kernel));
+        Cloud cloud(a);
+        make_random(cloud, k);
+        cloud.evaluate();
+        EXPECT_LT(balance_of(cloud).force, 1e-14) << kernel << " " << k;
+        EXPECT_LT(balance_of(cloud).power, 1e-14) << kernel << " " << k;
+      }
+}
+
+TEST(AdaptleBalances, LinearDeformationIsExactWithEveryKernel) {
+  double first_correction = 0;
+  for (std::string_view const kernel : LaneKernels::names) {
+    Assembly a = cloud_assembly({2, Mixture::lagrangian, "material", "auto"});
+    choose(a, "kernel", std::string(kernel));
+    Cloud cloud(a);
+    for (Index i = 0; i < cloud.size(); ++i) {
+      Point const X = cloud.X(i);
+      cloud.state[i].x[0] = 1.1 * X[0] + 0.2 * X[1];
+      cloud.state[i].x[1] = 0.9 * X[1] - 0.1 * X[0];
+    }
+    cloud.evaluate();
+    double const expected[9]{1.1, 0.2, 0, -0.1, 0.9, 0, 0, 0, 1};
+    for (Index i = 0; i < cloud.size(); ++i)
+      for (int c = 0; c < 9; ++c) EXPECT_NEAR(cloud.deformation(i).F[c], expected[c], 1e-12) << kernel;
+    double const correction = value_at(cloud.system().field.K, cloud.size() / 2);
+    EXPECT_NE(correction, first_correction) << "kernels differ";
+    first_correction = correction;
+  }
 }
 
 TEST(AdaptleBalances, RiemannFluxesKeepMomentumAndEnergy) {

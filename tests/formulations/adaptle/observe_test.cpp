@@ -148,7 +148,7 @@ TEST(AdaptleOptions, HaveTheDefaultsOfTheManual) {
   EXPECT_EQ(o.bodies[0].conversion_radius, 2);
   EXPECT_EQ(o.bodies[0].blend, 4);
   EXPECT_FALSE(o.bodies[0].deletes);
-  EXPECT_EQ(o.settings.interface_form, adaptle::Interface::owner);
+  EXPECT_EQ(o.settings.equations.interface_form, adaptle::Interface::owner);
   EXPECT_EQ(o.settings.mixed_stress, adaptle::MixedStress::both);
   EXPECT_EQ(o.settings.viscosity, adaptle::Viscosity::compression);
   EXPECT_FALSE(o.settings.corrected);
@@ -166,12 +166,12 @@ TEST(AdaptleOptions, HaveTheDefaultsOfTheManual) {
 
 TEST(AdaptleOptions, HourglassesAreHeldBySpringsWhereNothingYieldsAndDampedElsewhere) {
   adaptle::Options const elastic = adaptle::read_options(adaptle_assembly(unit_box(2, 4)));
-  EXPECT_FALSE(elastic.settings.published);
+  EXPECT_TRUE(elastic.settings.equations.has_central_viscosity());
   EXPECT_EQ(elastic.bodies[0].hourglass_stiffness, 1);
   EXPECT_EQ(elastic.bodies[0].hourglass, 0.1);
   auto metal = adaptle_assembly(unit_box(2, 4), sample_metal("johnson_cook", "elastic"));
   adaptle::Options const yielding = adaptle::read_options(metal);
-  EXPECT_TRUE(yielding.settings.published);
+  EXPECT_FALSE(yielding.settings.equations.has_central_viscosity());
   EXPECT_EQ(yielding.bodies[0].hourglass_stiffness, 0);
   EXPECT_EQ(yielding.bodies[0].hourglass, 0.7);
   EXPECT_TRUE(yielding.bodies[0].releases);

@@ -23,6 +23,16 @@ void launch_material(Range r, void const* pass) {
   exec::for_each_block(r, exec::as<ForceRows<D, Form>>(pass));
 }
 
+template <int D, class Shape>
+void launch_space(Range r, void const* pass) {
+  exec::for_each_block(r, exec::as<SpatialSweep<D, false, false, Shape>>(pass));
+  exec::for_each_block(r, exec::as<SpatialSweep<D, false, true, Shape>>(pass));
+  exec::for_each_block(r, exec::as<SpatialSweep<D, true, false, Shape>>(pass));
+  exec::for_each_block(r, exec::as<SpatialSweep<D, true, true, Shape>>(pass));
+  exec::for_each_block(r, exec::as<RiemannSweep<D, Shape>>(pass));
+  exec::for_each_block(r, exec::as<CorrectSpatial<D, Shape>>(pass));
+}
+
 template <int D>
 void launch_all(Range r, void const* pass) {
   launch_law<D, Solid<NoPlasticity, ElasticEos>>(r, pass);
@@ -35,12 +45,8 @@ void launch_all(Range r, void const* pass) {
   launch_material<D, MaterialForm::plain>(r, pass);
   launch_material<D, MaterialForm::published>(r, pass);
   launch_material<D, MaterialForm::published_plain>(r, pass);
-  exec::for_each_block(r, exec::as<SpatialSweep<D, false, false>>(pass));
-  exec::for_each_block(r, exec::as<SpatialSweep<D, false, true>>(pass));
-  exec::for_each_block(r, exec::as<SpatialSweep<D, true, false>>(pass));
-  exec::for_each_block(r, exec::as<SpatialSweep<D, true, true>>(pass));
-  exec::for_each_block(r, exec::as<RiemannSweep<D>>(pass));
-  exec::for_each_block(r, exec::as<CorrectSpatial<D>>(pass));
+  launch_space<D, CubicSpline>(r, pass);
+  launch_space<D, WendlandC2>(r, pass);
   exec::for_each_block(r, exec::as<FoldCorrection<D>>(pass));
   exec::for_each_block(r, exec::as<ContactSweep<D>>(pass));
   exec::for_each_block(r, exec::as<RigidSweep<D>>(pass));

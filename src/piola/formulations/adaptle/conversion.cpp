@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Total-Lagrangian particles that become Eulerian, or fail.
+#include "piola/formulations/adaptle/conversion.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/adaptle/contact.hpp"
 #include "piola/formulations/adaptle/finish_pass.hpp"
-#include "piola/formulations/adaptle/particles.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace piola::adaptle {
 namespace {
@@ -18,47 +15,6 @@ namespace {
 double strain_of(int dimension, Mat<3> const& F, SymMat<3> const& stress, BodyConstants const& b) {
   return dimension == 2 ? equivalent_strain<2>(F, stress, b) : equivalent_strain<3>(F, stress, b);
 }
-
-}  // namespace
-
-/// Evaluates convert_when; returns whether a particle of any rank is to convert by it.
-bool Particles::requests_by_formula() {
-  double any_request = 0;
-  bool asked = false;
-  for (std::size_t k = 0; k < body_.size(); ++k) {
-    BodyConstants const& b = body_[k];
-    if (!options_.bodies[k].convert_when) continue;
-    asked = true;
-    Expression const& formula = *options_.bodies[k].convert_when;
-    with_solid(b.material, [&](auto const& law) {
-      PointFields const point(system_.field, system_.own);
-      Components const F(read(system_.field.F));
-      Fields const& f = fields_;
-      for (Index i = own_[k].first; i < own_[k].last; ++i) {
-        if (f.phi.at(i) > 0 || conversion_requests_[at(i)] == 1) continue;
-        double const rho = f.rho.at(i), p = point.pressure<double>(law, i, rho, f.energy.at(i) / f.mass.at(i));
-        SymMat<3> const S = point.S.symmetric<double>(i);
-        SymMat<3> stress = S;
-        for (int c = 0; c < 3; ++c) stress.c[c] -= p;
-        std::array const values{f.damage.at(i),
-                                f.plastic_strain.at(i),
-                                b.rho0 / rho,
-                                -p,
-                                von_mises(S),
-                                f.temperature.at(i),
-                                strain_of(system_.dimension, F.matrix<double>(i), stress, b),
-                                rho};
-        if (formula(X(i), energy_totals_.time, values) == 0) continue;
-        conversion_requests_[at(i)] = 1;
-        any_request = 1;
-      }
-    });
-  }
-  if (exchanges_ && asked) comm::allreduce_max(any_request);
-  return any_request > 0;
-}
-
-namespace {
 
 /// Marks of two kinds for each particle, of any rank.
 class Marks {
@@ -82,57 +38,118 @@ class Marks {
 
 }  // namespace
 
-/// Converts flagged particles to Eulerian, or deletes them in bodies with failed = "delete". In bodies without
-/// deletion, reference neighbours within conversion_radius of a particle flagged by a criterion convert too (not
-/// recursively). A conversion counts as a guard conversion only if no criterion asked for it. Flags are combined over
-/// ranks.
-void Particles::convert(double dt) {
-  PIOLA_EXPECTS(dt >= 0);
-  Marks marks(system_.particles);
-  for (std::size_t k = 0; k < body_.size(); ++k)
-    for (Index i = own_[k].first; i < own_[k].last; ++i) {
-      if (conversion_requests_[at(i)] == 0) continue;
-      bool const alone = conversion_requests_[at(i)] == 2;
-      marks.set(i, alone && !body_[k].deletes ? Marks::by_guard : Marks::changes);
-      if (!alone && !body_[k].deletes)
-        material_.each_neighbour(i, options_.bodies[k].conversion_radius * body_[k].reference_h, fields_,
-                                 [&](Index j) { marks.set(j, Marks::changes); });
+Conversion::Conversion(ParticleData& particles, std::vector<BodyOptions> const& options,
+                       ReferenceLists const& neighbours, EnergyTotals& totals)
+    : particles_(particles),
+      options_(options),
+      neighbours_(neighbours),
+      totals_(totals),
+      requests_(at(particles.system().particles)) {
+  if (particles.has_surface_contact()) lost_ = LostSurfaces(particles.set());
+  particles.system().conversion_request = requests_.data();
+  particles.system().contact.lost = lost_.by_slot().data();
+}
+
+bool Conversion::request_by_formula() {
+  double any_request = 0;
+  bool asked = false;
+  for (std::size_t k = 0; k < options_.size(); ++k) {
+    if (!options_[k].convert_when) continue;
+    asked = true;
+    if (request_by(*options_[k].convert_when, k)) any_request = 1;
+  }
+  if (particles_.system().shared && asked) comm::allreduce_max(any_request);
+  return any_request > 0;
+}
+
+/// Requests of the local particles of a body.
+bool Conversion::request_by(Expression const& formula, std::size_t body) {
+  System const& s = particles_.system();
+  Fields const& f = particles_.fields();
+  BodyConstants const& b = particles_.bodies()[body];
+  bool any_request = false;
+  with_solid(b.material, [&](auto const& law) {
+    PointFields const point(s.field, s.own);
+    Components const F(read(s.field.F));
+    for (Index i = s.part[body].first; i < s.part[body].last; ++i) {
+      if (f.phi.at(i) > 0 || requests_[at(i)] == 1) continue;
+      double const rho = f.rho.at(i), p = point.pressure<double>(law, i, rho, f.energy.at(i) / f.mass.at(i));
+      SymMat<3> const S = point.S.symmetric<double>(i);
+      SymMat<3> stress = S;
+      for (int c = 0; c < 3; ++c) stress.c[c] -= p;
+      std::array const values{f.damage.at(i),
+                              f.plastic_strain.at(i),
+                              b.rho0 / rho,
+                              -p,
+                              von_mises(S),
+                              f.temperature.at(i),
+                              strain_of(s.dimension, F.matrix<double>(i), stress, b),
+                              rho};
+      if (formula(particles_.set().X[at(i)], totals_.time, values) == 0) continue;
+      requests_[at(i)] = 1;
+      any_request = true;
     }
+  });
+  return any_request;
+}
+
+void Conversion::convert(double dt) {
+  PIOLA_EXPECTS(dt >= 0);
+  System const& s = particles_.system();
+  Marks marks(s.particles);
+  for (std::size_t k = 0; k < options_.size(); ++k) {
+    BodyConstants const& body = particles_.bodies()[k];
+    for (Index i = s.part[k].first; i < s.part[k].last; ++i) {
+      if (requests_[at(i)] == 0) continue;
+      bool const alone = requests_[at(i)] == 2;
+      marks.set(i, alone && !body.deletes ? Marks::by_guard : Marks::changes);
+      if (!alone && !body.deletes)
+        neighbours_.each_neighbour(i, options_[k].conversion_radius * body.reference_h, particles_.fields(),
+                                   [&](Index j) { marks.set(j, Marks::changes); });
+    }
+  }
   marks.share();
   std::vector<std::uint8_t> const lost_before = lost_.by_slot();
   std::int64_t const count_before = lost_.count();
-  ConversionSums sums;
-  for (Index i = 0; i < system_.particles; ++i) {
+  Sums sums;
+  for (Index i = 0; i < s.particles; ++i) {
     bool const changes = marks.has(i, Marks::changes);
-    if (changes && body_[at(body_of_[at(i)])].deletes)
+    if (changes && particles_.body_of(i).deletes)
       remove(i);
     else if (changes || marks.has(i, Marks::by_guard))
       make_eulerian(i, dt, !changes, sums);
   }
-  if (exchanges_) comm::allreduce_sum(sums);
-  energy_totals_.converted_mass += sums.value(0);
-  energy_totals_.energy_change += sums.value(1);
-  energy_totals_.momentum_change += sums.value(2);
+  if (s.shared) comm::allreduce_sum(sums);
+  totals_.converted_mass += sums.value(0);
+  totals_.energy_change += sums.value(1);
+  totals_.momentum_change += sums.value(2);
   if (lost_.count() > count_before) {
-    double const opened = opened_energy(system_, lost_before);
-    energy_totals_.contact_energy += opened;
-    energy_totals_.energy_change += opened;
+    double const opened = opened_energy(s, lost_before);
+    totals_.contact_energy += opened;
+    totals_.energy_change += opened;
   }
-  choose_material();
+}
+
+void Conversion::resumed() {
+  if (!lost_.used()) return;
+  for (Index i = 0; i < particles_.system().particles; ++i)
+    if (particles_.fields().phi.at(i) == 1) lose_surface(i);
 }
 
 /// Marks the particle and all that have it as a reference neighbour, because their deformation gradient now depends on
 /// the positions of an Eulerian particle.
-void Particles::lose_surface(Index slot) { lost_.lose(set_, slot, 2 * body_[at(body_of_[at(slot)])].reference_h); }
+void Conversion::lose_surface(Index slot) {
+  lost_.lose(particles_.set(), slot, 2 * particles_.body_of(slot).reference_h);
+}
 
 /// x, v, S, energy and history stay. rho follows from J, which belongs to half time, carried on to the end of the step.
-void Particles::make_eulerian(Index i, double dt, bool by_guard, ConversionSums& sums) {
-  Fields& f = fields_;
+void Conversion::make_eulerian(Index i, double dt, bool by_guard, Sums& sums) {
+  Fields& f = particles_.fields();
   if (f.phi.at(i) == 1) return;
-  energy_totals_.converted += 1;
-  energy_totals_.by_guard += by_guard ? 1 : 0;
+  totals_.converted += 1;
+  totals_.by_guard += by_guard ? 1 : 0;
   if (lost_.used()) lose_surface(i);
-  if (!is_local(i)) {  // remote particle: only its kernel type is stored
+  if (!particles_.system().is_local(i)) {  // remote particle: only its kernel type is stored
     f.phi.at(i) = 1;
     return;
   }
@@ -147,30 +164,32 @@ void Particles::make_eulerian(Index i, double dt, bool by_guard, ConversionSums&
   sums.add(jump);
 }
 
-/// Internal and kinetic [J].
-double Particles::energy_of(Index i) const {
-  double energy = fields_.energy.at(i);
-  for (int c = 0; c < 3; ++c) energy += 0.5 * fields_.mass.at(i) * fields_.v.at(i, c) * fields_.v.at(i, c);
-  return energy;
-}
-
-std::array<double, 3> Particles::momentum_of(Index i) const {
-  double const m = fields_.mass.at(i);
-  return {m * fields_.v.at(i, 0), m * fields_.v.at(i, 1), m * fields_.v.at(i, 2)};
-}
-
 /// Bears no stress any more and leaves the sums of its neighbours; its deformation stays as it is.
-void Particles::remove(Index i) {
-  Fields& f = fields_;
+void Conversion::remove(Index i) {
+  Fields& f = particles_.fields();
   if (!(f.active.at(i) > 0)) return;
   f.active.at(i) = 0;
-  energy_totals_.deleted += 1;
-  if (!is_local(i)) return;
+  totals_.deleted += 1;
+  if (!particles_.system().is_local(i)) return;
   for (int c = 0; c < 6; ++c) f.S.at(i, c) = f.S_rate.at(i, c) = 0;
   f.rho_rate.at(i) = f.energy_rate.at(i) = 0;
   if (f.holds(f.thickness_rate)) f.thickness_rate.at(i) = 0;
   if (f.holds(f.F_rate))
     for (int c = 0; c < 9; ++c) f.F_rate.at(i, c) = 0;
+}
+
+/// Internal and kinetic [J].
+double Conversion::energy_of(Index i) const {
+  Fields const& f = particles_.fields();
+  double energy = f.energy.at(i);
+  for (int c = 0; c < 3; ++c) energy += 0.5 * f.mass.at(i) * f.v.at(i, c) * f.v.at(i, c);
+  return energy;
+}
+
+std::array<double, 3> Conversion::momentum_of(Index i) const {
+  Fields const& f = particles_.fields();
+  double const m = f.mass.at(i);
+  return {m * f.v.at(i, 0), m * f.v.at(i, 1), m * f.v.at(i, 2)};
 }
 
 }  // namespace piola::adaptle

@@ -64,7 +64,7 @@ struct Fields : FieldSet {
   /// Optional features of a case that need additional fields.
   struct FieldRequirements {
     bool lagrangian = false;    ///< some particle has a deformation gradient
-    bool published = false;     ///< material sums of set (2)
+    EquationSet equations;      ///< of the sums over reference neighbours
     bool plane_stress = false;  ///< variable thickness
     bool touching = false;      ///< several bodies, or rigid shapes
   };
@@ -72,7 +72,7 @@ struct Fields : FieldSet {
     auto const is_one_of = [&](auto const&... some) { return (... || (&field == &some)); };
     if (is_one_of(F, F_rate, gap, heat, hourglass, compression, K, gradient_sum)) return needs.lagrangian;
     if (is_one_of(force)) return needs.lagrangian || needs.touching;
-    if (is_one_of(kernel_sum, N, gradient_mean)) return needs.lagrangian && needs.published;
+    if (is_one_of(kernel_sum, N, gradient_mean)) return needs.lagrangian && needs.equations.stores_kernel();
     if (is_one_of(thickness, thickness_rate, thickness_half)) return needs.plane_stress;
     if (is_one_of(contact)) return needs.touching;
     return true;

@@ -13,11 +13,12 @@ namespace piola::adaptle::inline PIOLA_BACKEND {
 template <int D, MaterialForm Form>
 struct ForcePairs {
   using R = MaterialRecord<D>;
-  static constexpr bool published = is_published(Form), shifts = Form == MaterialForm::published;
-  static constexpr int Q = 0, heat = D, mu = D + 1, sums = published ? mu + 1 : D, extrema = published ? 1 : 0;
-  static constexpr int first_component = published ? R::u : R::X, last_component = published ? R::inverse_J + 1 : R::a;
+  static constexpr bool viscous = !EquationSet{Form}.has_central_viscosity(),
+                        kernel_part = EquationSet{Form}.has_kernel_part();
+  static constexpr int Q = 0, heat = D, mu = D + 1, sums = viscous ? mu + 1 : D, extrema = viscous ? 1 : 0;
+  static constexpr int first_component = viscous ? R::u : R::X, last_component = R::values(EquationSet{Form});
   double alpha, beta, h, rho0, c;
-  bool as_published;  ///< interface: total-Lagrangian particles also receive the viscosity of Eulerian ones
+  bool mixed;  ///< total-Lagrangian particles also receive the viscosity of Eulerian ones
 
   template <class V>
   struct Own {
@@ -28,7 +29,7 @@ struct ForcePairs {
   template <class V>
   [[gnu::always_inline]] PIOLA_FN static auto own_at(RecordPlace const& p) {
     Own<V> own;
-    if constexpr (published) {
+    if constexpr (viscous) {
       for (int k = 0; k < D; ++k) {
         own.u[k] = load_local<V>(p, R::u + k);
         own.v[k] = load_local<V>(p, R::v + k);
@@ -49,9 +50,9 @@ struct ForcePairs {
       Lanes reaction = f(R::A + p * D) * g.r[0];
       for (int q = 1; q < D; ++q) reaction += f(R::A + p * D + q) * g.r[q];
       sum[Q + p] += g.s * reaction;
-      if constexpr (shifts) sum[Q + p] += f(R::a + p) * g.kernel;
+      if constexpr (kernel_part) sum[Q + p] += f(R::a + p) * g.kernel;
     }
-    if constexpr (published)
+    if constexpr (viscous)
       if (own.feels) add_viscosity(sum, own, g, f);
   }
 
@@ -68,7 +69,7 @@ struct ForcePairs {
     Lanes const here(own.viscosity);
     Lanes closing = minimum(dot(w, x), Lanes(0.0));
     closing = select(g.s != 0.0, closing, Lanes(0.0));
-    closing = select((as_published ? here : minimum(here, there)) < 0.0, Lanes(0.0), closing);
+    closing = select((mixed ? here : minimum(here, there)) < 0.0, Lanes(0.0), closing);
     if (!any(closing < 0.0)) return;
     auto const [speed, plain] =
         viscous_pair(alpha, beta, h, closing, dot(x, x), Lanes(2 * c), rho0 * (f(R::inverse_J) + own.inverse_J));
@@ -84,7 +85,7 @@ struct ForcePairs {
       }
       mine = g.s * mine;
       other = g.s * other;
-      if constexpr (shifts) {
+      if constexpr (kernel_part) {
         mine -= own.n[p] * g.kernel;
         other += f(R::n + p) * g.kernel;
       }
@@ -104,7 +105,7 @@ struct MaterialForces {
   MaterialTable table;
   Index particles;
   BodyConstants body;
-  bool as_published;
+  bool on_eulerian;  ///< Eulerian particles receive reactions
   Components phi, active, volume, F, F_rate, gradient_sum, kernel_sum;
   OwnComponents force, heat, compression;
   S pairs;
@@ -113,7 +114,7 @@ struct MaterialForces {
       : table(of_body),
         particles(s.particles),
         body(b),
-        as_published(s.settings.interface_form == Interface::as_published),
+        on_eulerian(s.settings.equations.has_reactions()),
         phi(read(s.field.phi)),
         active(read(s.field.active)),
         volume(read(s.field.volume)),
@@ -124,29 +125,28 @@ struct MaterialForces {
         force(write(s.field.force)),
         heat(write(s.field.heat)),
         compression(write(s.field.compression)),
-        pairs{b.alpha, b.beta, b.reference_h, b.rho0, b.c, as_published} {}
+        pairs{b.alpha, b.beta, b.reference_h, b.rho0, b.c, s.settings.equations.has_mixed_viscosity()} {}
 
-  /// Whether a particle takes part. In the published interface Eulerian particles receive forces from spatial sums
-  /// alone.
+  /// Whether a particle takes part.
   PIOLA_FN bool operator()(Index i) const {
-    return (table.part[i] & ReferenceRole::target) != 0 && active.at(i) > 0 && !(as_published && phi.at(i) > 0);
+    return (table.part[i] & ReferenceRole::target) != 0 && active.at(i) > 0 && (on_eulerian || !(phi.at(i) > 0));
   }
 
   /// marks: lanes that take part.
   PIOLA_FN void operator()(Group g, Lanes const& marks, Lanes const (&a)[S::sums]) const {
     Index const i = g.first;
     Lanes own[S::last_component - R::A], extra[D];
-    load_own_records<D>(table, S::published, g, R::A, own);
+    load_own_records<D>(table, EquationSet{Form}, g, R::A, own);
     hourglass_of_neighbours(g, marks, extra);
     auto const wanted = marks > 0.0;
     Lanes const V = volume.scalar<Lanes>(i);
     for (int p = 0; p < D; ++p) {
       Lanes total = V * (a[S::Q + p] + extra[p]);
       for (int q = 0; q < D; ++q) total += own[p * D + q] * gradient_sum.scalar<Lanes>(i, q);
-      if constexpr (S::shifts) total -= own[R::a - R::A + p] * kernel_sum.scalar<Lanes>(i);
+      if constexpr (S::kernel_part) total -= own[R::a - R::A + p] * kernel_sum.scalar<Lanes>(i);
       force.add(g, select(wanted, total, Lanes(0.0)), p);
     }
-    if constexpr (S::published) {
+    if constexpr (S::viscous) {
       heat.add(g, select(wanted, V * a[S::heat], Lanes(0.0)));
       compression.put(g, maximum(compression.seen().template scalar<Lanes>(i), select(wanted, -a[S::mu], Lanes(0.0))));
     }
@@ -170,13 +170,14 @@ struct MaterialForces {
   }
 
   PIOLA_FN Vec<D> hourglass_around(Index i) const {
-    double const damping = 0.5 * damping_of(body), stiffness = S::published ? 0 : 0.5 * stiffness_of(body);
-    RecordPlace const own = record_of<D>(table, S::published, i);
+    double const damping = 0.5 * damping_of(body),
+                 stiffness = EquationSet{Form}.has_hourglass_stiffness() ? 0.5 * stiffness_of(body) : 0;
+    RecordPlace const own = record_of<D>(table, EquationSet{Form}, i);
     Lanes sum[D];
     for (auto& s : sum) s = Lanes(0.0);
     for (Offset k = table.begin[i]; k < table.begin[i + 1]; k += lane_count) {
       Lanes f[R::A];
-      load_listed<D>(table, S::published, k, particles, f);
+      load_listed<D>(table, EquationSet{Form}, k, particles, f);
       Lanes const s = load_gradients(gradients_of<Form>(table) + k),
                   weight = select(f[R::viscosity] > 0.0, f[R::volume] * s, Lanes(0.0));
       if (!any(weight > 0.0)) continue;

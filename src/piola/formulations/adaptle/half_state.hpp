@@ -50,8 +50,8 @@ struct WriteRecords {
                       volume_half.scalar<Lanes>(i), half.thickness_at(i),    stress};
       if (spatial.record != nullptr) write_spatial(g, here);
       if (!material.used) return;
-      if (settings.published)
-        write_published(g, here);
+      if (settings.equations.records_deformation())
+        write_deformation(g, here);
       else
         write_material(g, here);
     });
@@ -73,7 +73,7 @@ struct WriteRecords {
     Lanes const share = select(here.phi > 0.0, Lanes(0.0), 0.5 * volume.scalar<Lanes>(i));
     Lanes const damping = share * damping_of(body);
     Mat<D, Lanes> const rate = restrict_to<D>(F_rate.matrix<Lanes>(i));
-    Lanes const stiffness = share * (settings.published ? 0 : stiffness_of(body));
+    Lanes const stiffness = share * (settings.equations.has_hourglass_stiffness() ? stiffness_of(body) : 0);
     for (int p = 0; p < D; ++p)
       for (int q = 0; q < D; ++q)
         A[p * D + q] = A[p * D + q] - (damping * rate(p, q) + stiffness * (F(p, q) - (p == q ? 1.0 : 0.0)));
@@ -101,18 +101,16 @@ struct WriteRecords {
       add_hourglass(i, here, F, A);
     }
     for (Lanes& value : A) value = select(bears, value, Lanes(0.0));
-    store_in_records<D>(material, false, g, R::A, A);
+    store_in_records<D>(material, settings.equations, g, R::A, A);
   }
 
   /// For set (2): A, a, F^-T N, F^-T n and 1/J, which is also the density over the initial one.
-  PIOLA_FN void write_published(Group g, Here const& here) const {
+  PIOLA_FN void write_deformation(Group g, Here const& here) const {
     Index const i = g.first;
     constexpr int first = R::A;
     Lanes r[R::inverse_J + 1 - first];
-    bool const as_published = settings.interface_form == Interface::as_published;
-    // Eulerian particles of the published interface have a deformation gradient only near total-Lagrangian ones.
     auto bears = here.phi < 1.0;
-    if (as_published) bears = bears || gap.scalar<Lanes>(i) >= 0.0;
+    if (settings.equations.deforms_eulerian()) bears = bears || gap.scalar<Lanes>(i) >= 0.0;
     bears = bears && here.active > 0.0;
     for (Lanes& value : r) value = Lanes(0.0);
     if (any(bears)) {
@@ -120,8 +118,9 @@ struct WriteRecords {
       Mat<D, Lanes> const F = restrict_to<D>(full), FN = transpose(inverse(F)) * restrict_to<D>(N.matrix<Lanes>(i));
       // V sigma = V0 P F^T: with the current volume, which follows from an evolved density.
       Lanes const at_rest = determinant(full) * volume.scalar<Lanes>(i);
-      Lanes const share =
-          as_published ? at_rest : (1.0 - here.phi) * select(here.phi > 0.0, here.volume * here.thickness, at_rest);
+      Lanes const share = settings.equations.splits_stress()
+                              ? (1.0 - here.phi) * select(here.phi > 0.0, here.volume * here.thickness, at_rest)
+                              : at_rest;
       for (int p = 0; p < D; ++p) {
         Lanes a(0.0), n(0.0);
         for (int q = 0; q < D; ++q) {
@@ -141,7 +140,7 @@ struct WriteRecords {
     }
     for (int c = 0; c < R::inverse_J - first; ++c) r[c] = select(bears, r[c], Lanes(0.0));
     r[R::inverse_J - first] = select(bears, r[R::inverse_J - first], Lanes(1.0));
-    store_in_records<D>(material, true, g, first, r);
+    store_in_records<D>(material, settings.equations, g, first, r);
   }
 
   PIOLA_FN void write_spatial(Group g, Here const& here) const {
@@ -165,7 +164,7 @@ struct WriteRecords {
     r[Q::c] = Lanes(body.c);
     Lanes const factor = positive_factor(viscosity.scalar<Lanes>(i));
     r[Q::viscosity] = select(here.phi > 0.0, factor, -factor);
-    Lanes const weight = settings.interface_form == Interface::as_published ? Lanes(1.0) : here.phi;
+    Lanes const weight = settings.equations.splits_stress() ? here.phi : Lanes(1.0);
     for (int c = 0; c < SymMat<D>::size; ++c) r[Q::M + c] = weight * here.volume * here.thickness * here.stress.c[c];
     store_records(to, 0, r);
     if (settings.artificial_stress) {

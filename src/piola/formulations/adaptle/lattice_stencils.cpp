@@ -36,9 +36,11 @@ GroupShape shape_of_group(std::vector<Index> const& distance, int lanes) {
 
 }  // namespace
 
-void kernel_of(int dimension, double h, double square, double& s, double& W) {
-  if (dimension == 2) return Kernel<2>(h).evaluate(square, s, W);
-  Kernel<3>(h).evaluate(square, s, W);
+void kernel_of(piola::Kernel const& kernel, int dimension, double h, double square, double& s, double& W) {
+  with_kernel(kernel, LaneKernels{}, [&]<class Shape>() {
+    if (dimension == 2) return Kernel<2, Shape>(h).evaluate(square, s, W);
+    Kernel<3, Shape>(h).evaluate(square, s, W);
+  });
 }
 
 double lattice_square(Body const& body, std::array<int, 3> const& from, std::array<int, 3> const& to) {
@@ -55,7 +57,7 @@ LatticeStencils::LatticeStencils(ParticleSet const& set, BodyInput const& body, 
     : first_(static_cast<Index>(body.geometry.first)) {
   PIOLA_EXPECTS(lanes >= 1 && components >= 1);
   if (!body.geometry.regular || body.geometry.off_lattice) return;
-  find_offsets(body.geometry, set.dimension, body.h, rounded);
+  find_offsets(body, set.dimension, rounded);
   Fill fill = find_patterns(set, body, begin, neighbour, lanes);
   comm::allreduce(fill, [](void const* other, void* mine) {
     auto const& from = *static_cast<Fill const*>(other);
@@ -67,16 +69,17 @@ LatticeStencils::LatticeStencils(ParticleSet const& set, BodyInput const& body, 
   if (has_rows_) allocate(body.geometry, components);
 }
 
-void LatticeStencils::find_offsets(Body const& body, int dimension, double h, bool rounded) {
+void LatticeStencils::find_offsets(BodyInput const& input, int dimension, bool rounded) {
+  Body const& body = input.geometry;
   for (std::size_t c = 0; c < 3; ++c)
-    reach_[c] = static_cast<int>(c) < dimension ? static_cast<int>(2 * h / body.spacing[c]) + 1 : 0;
+    reach_[c] = static_cast<int>(c) < dimension ? static_cast<int>(2 * input.h / body.spacing[c]) + 1 : 0;
   std::array<int, 3> n{};
   for (n[2] = -reach_[2]; n[2] <= reach_[2]; ++n[2])
     for (n[1] = -reach_[1]; n[1] <= reach_[1]; ++n[1])
       for (n[0] = -reach_[0]; n[0] <= reach_[0]; ++n[0]) {
         double s = 0, W = 0;
         double const square = lattice_square(body, {}, n);
-        if (square > 0) kernel_of(dimension, h, square, s, W);
+        if (square > 0) kernel_of(input.kernel, dimension, input.h, square, s, W);
         number_.push_back(W > 0 ? static_cast<std::int32_t>(offsets_.size()) : -1);
         if (!(W > 0)) continue;
         StencilOffset o{};

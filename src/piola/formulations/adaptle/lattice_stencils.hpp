@@ -17,6 +17,7 @@ class LatticeStencils {
     Body const& geometry;
     Range own;
     double h;
+    piola::Kernel const& kernel;
   };
   /// begin, neighbour: lists of the local particles. Bodies that are no lattice, or whose groups of lanes have too few
   /// common neighbours, keep their lists: is_lattice() is false. components: of a record. Collective.
@@ -28,7 +29,7 @@ class LatticeStencils {
   std::size_t bytes() const;
 
  private:
-  void find_offsets(Body const& body, int dimension, double h, bool rounded);
+  void find_offsets(BodyInput const& body, int dimension, bool rounded);
   std::int32_t offset_between(std::array<int, 3> const& from, std::array<int, 3> const& to) const;
   /// Criterion for lists or patterns: neighbours, and lanes computed for them, over all ranks.
   struct Fill {
@@ -56,7 +57,7 @@ class LatticeStencils {
 /// The squared distance between two lattice particles [m2]: bit-identical for all pairs of one offset.
 double lattice_square(Body const& body, std::array<int, 3> const& from, std::array<int, 3> const& to);
 
-/// s = -W'(r)/r and W(r) of the cubic spline.
-void kernel_of(int dimension, double h, double square, double& s, double& W);
+/// s = -W'(r)/r and W(r) of one of LaneKernels.
+void kernel_of(piola::Kernel const& kernel, int dimension, double h, double square, double& s, double& W);
 
 }  // namespace piola::adaptle

@@ -30,10 +30,13 @@ struct PairConstants {
 template <int D, MaterialForm Form>
 struct DeformPairs {
   using R = MaterialRecord<D>;
-  static constexpr bool published = is_published(Form), shifts = Form == MaterialForm::published;
-  static constexpr int du = 0, dv = D * D, T = 2 * D * D, heat = T + D, stored = heat + 1, uW = published ? stored : -1,
-                       vW = uW + D, mu = stored + 1, sums = published ? (shifts ? vW + D : stored) : mu + 1,
-                       extrema = published ? 0 : 1;
+  /// Springs and viscosity come together.
+  static constexpr bool central = EquationSet{Form}.has_central_viscosity(),
+                        kernel_part = EquationSet{Form}.has_kernel_part();
+  static_assert(central == EquationSet{Form}.has_hourglass_stiffness());
+  static constexpr int du = 0, dv = D * D, T = 2 * D * D, heat = T + D, stored = heat + 1, uW = central ? -1 : stored,
+                       vW = uW + D, mu = stored + 1, sums = central ? mu + 1 : (kernel_part ? vW + D : stored),
+                       extrema = central ? 1 : 0;
   static constexpr int first_component = 0, last_component = R::viscosity + 1;
   PairConstants b;
 
@@ -69,7 +72,7 @@ struct DeformPairs {
         sum[dv + p * D + q] += c * g.r[q];
       }
     }
-    if constexpr (shifts) {
+    if constexpr (kernel_part) {
       Lanes const VW = f(R::volume) * g.kernel;
       for (int p = 0; p < D; ++p) {
         sum[uW + p] += VW * u[p];
@@ -78,12 +81,12 @@ struct DeformPairs {
     }
     Lanes const least = minimum(f(R::viscosity), Lanes(own.viscosity));  // negative if one of both is
     Lanes const weight = select(least < 0.0, Lanes(0.0), Vs);
-    if constexpr (published) {
+    if constexpr (central) {
+      add_central(sum, own, g, u, w, weight, f(R::viscosity));
+    } else {
       Lanes const pull = b.damping * weight;
       for (int p = 0; p < D; ++p) sum[T + p] += pull * w[p];
       sum[heat] += 0.5 * pull * dot(w, w);
-    } else {
-      add_central(sum, own, g, u, w, weight, f(R::viscosity));
     }
   }
 
@@ -159,19 +162,19 @@ struct Deform {
     if (!any(lagrangian)) return;
     Lanes const weight = select(lagrangian, volume.scalar<Lanes>(i), Lanes(0.0));
     Lanes loss = a[S::heat], stored(0.0);
-    if constexpr (!S::published) stored = a[S::stored];
+    if constexpr (S::central) stored = a[S::stored];
     for (int p = 0; p < D; ++p) {
       force.add(g, weight * a[S::T + p], p);
       for (int q = 0; q < D; ++q) {
         Lanes const first_moment = a[S::dv + p * D + q];
         loss = loss - (0.5 * b.damping) * rate(p, q) * first_moment;
-        if constexpr (!S::published)
+        if constexpr (S::central)
           stored = stored - (0.5 * b.stiffness) * (gradient(p, q) - (p == q ? 1.0 : 0.0)) * first_moment;
       }
     }
     heat.add(g, weight * loss);
     hourglass.add(g, weight * stored);
-    if constexpr (!S::published)
+    if constexpr (S::central)
       compression.put(g,
                       maximum(compression.seen().template scalar<Lanes>(i), select(lagrangian, -a[S::mu], Lanes(0.0))));
     Lanes const own = select(lagrangian, Lanes(1.0), Lanes(0.0));
@@ -181,16 +184,17 @@ struct Deform {
 
  private:
   PIOLA_FN void set_gradients(Index i, Lanes const (&a)[S::sums], Mat<3, Lanes>& gradient, Mat<3, Lanes>& rate) const {
+    constexpr bool folded = EquationSet{Form}.stores_kernel();
     for (int l = 0; l < D; ++l)
       for (int p = 0; p < D; ++p) {
         Lanes u = a[S::du + p * D + l], v = a[S::dv + p * D + l];
-        if constexpr (S::shifts) {
+        if constexpr (S::kernel_part) {
           Lanes const G = gradient_mean.scalar<Lanes>(i, l);
           u -= a[S::uW + p] * G;
           v -= a[S::vW + p] * G;
         }
         for (int q = 0; q < D; ++q) {
-          Lanes const k = S::published ? N.scalar<Lanes>(i, 3 * q + l) : K.scalar<Lanes>(i, SymMat<D>::at(q, l));
+          Lanes const k = folded ? N.scalar<Lanes>(i, 3 * q + l) : K.scalar<Lanes>(i, SymMat<D>::at(q, l));
           gradient(p, q) += u * k;
           rate(p, q) += v * k;
         }
@@ -202,13 +206,13 @@ struct Deform {
   /// from the positions that the deformation gradient predicts.
   PIOLA_FN void leave_out_others(Index i) const {
     PairConstants const& b = pairs.b;
-    RecordPlace const own = record_of<D>(table, S::published, i);
+    RecordPlace const own = record_of<D>(table, EquationSet{Form}, i);
     Mat<3> const gradient = F.seen().template matrix<double>(i), rate = F_rate.seen().template matrix<double>(i);
     Lanes sum[D + 2], farthest = Lanes(0.0);
     for (auto& a : sum) a = Lanes(0.0);
     for (Offset k = table.begin[i]; k < table.begin[i + 1]; k += lane_count) {
       Lanes f[R::A];
-      load_listed<D>(table, S::published, k, particles, f);
+      load_listed<D>(table, EquationSet{Form}, k, particles, f);
       auto const other = f[R::viscosity] < 0.0;
       if (!any(other)) continue;
       Lanes const weight = select(other, f[R::volume] * load_gradients(gradients_of<Form>(table) + k), Lanes(0.0));
@@ -238,7 +242,7 @@ struct Deform {
     double const V = volume.at(i);
     for (int p = 0; p < D; ++p) force.at(i, p) += 0.5 * V * a[p];
     heat.at(i) += 0.5 * b.damping * V * a[D];
-    if constexpr (!S::published) hourglass.at(i) += 0.5 * b.stiffness * V * a[D + 1];
+    if constexpr (S::central) hourglass.at(i) += 0.5 * b.stiffness * V * a[D + 1];
     gap.at(i) = std::sqrt(largest_of(farthest)) / b.h;
   }
 };

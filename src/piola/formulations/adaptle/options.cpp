@@ -2,6 +2,7 @@
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
+#include "piola/kernels/list.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
 #include <algorithm>
 #include <array>
@@ -38,6 +39,8 @@ constexpr std::array choices{
            "mixed: "
            "of spatial sums, too",
            correction_words},
+    Choice{"kernel", "smoothing kernel of sums over neighbours, support 2h; that of contact is the cubic spline",
+           LaneKernels::names},
     Choice{"viscosity",
            "switch of the artificial viscosity; compression: acts where the material is compressed, not in shear, so "
            "that alpha and beta need no choice by case; monaghan: none, as published; riemann: a flux from Riemann "
@@ -194,21 +197,27 @@ BodyOptions read_body(FormulationSpec const& spec, int dimension, bool springs, 
   return o;
 }
 
-/// Whether material sums are to be as published; `yielding`: some body can flow.
-bool published_form(FormulationSpec const& spec, bool yielding) {
-  std::string_view const form = word(spec, "viscosity_form");
-  return word(spec, "interface") == "published" || word(spec, "correction") == "mixed" || form == "published" ||
-         (form == "auto" && yielding);
+/// yielding: some body can flow.
+EquationSet read_equations(FormulationSpec const& spec, bool yielding) {
+  EquationSet e;
+  e.interface_form = choice_of<Interface>(spec, choices, "interface");
+  std::string_view const viscosity = word(spec, "viscosity_form"), correction = word(spec, "correction");
+  bool const published = e.interface_form == Interface::as_published || correction == "mixed" ||
+                         viscosity == "published" || (viscosity == "auto" && yielding);
+  if (correction == "none")
+    e.form = published ? MaterialForm::published_plain : MaterialForm::plain;
+  else
+    e.form = published ? MaterialForm::published : MaterialForm::corrected;
+  return e;
 }
 
 Settings read_settings(FormulationSpec const& spec, bool yielding) {
   Settings s;
   s.viscosity = choice_of<Viscosity>(spec, choices, "viscosity");
-  s.interface_form = choice_of<Interface>(spec, choices, "interface");
+  s.equations = read_equations(spec, yielding);
+  s.kernel = find_kernel(word(spec, "kernel"));
   s.mixed_stress = choice_of<MixedStress>(spec, choices, "artificial_stress_interface");
   s.corrected = word(spec, "correction") == "mixed";
-  s.corrected_material = word(spec, "correction") != "none";
-  s.published = published_form(spec, yielding);
   s.plane_stress = word(spec, "assumption") == "plane_stress";
   s.exponent = static_cast<int>(number(spec, "artificial_stress_exponent"));
   s.artificial_stress = number(spec, "artificial_stress") > 0 && s.viscosity != Viscosity::riemann;
@@ -218,8 +227,8 @@ Settings read_settings(FormulationSpec const& spec, bool yielding) {
 
 /// Checks words and numbers that all bodies must have in common.
 void check_alike(Assembly const& assembly, Problems& problems) {
-  constexpr std::array<std::string_view, 6> shared{
-      "interface", "correction", "viscosity", "viscosity_form", "artificial_stress_interface", "assumption"};
+  constexpr std::array<std::string_view, 7> shared{
+      "interface", "correction", "kernel", "viscosity", "viscosity_form", "artificial_stress_interface", "assumption"};
   auto const& first = assembly.formulations.front();
   for (std::size_t b = 1; b < assembly.formulations.size(); ++b) {
     auto const& other = assembly.formulations[b];
@@ -300,7 +309,8 @@ Options read_options(Assembly const& assembly) {
                              std::any_of(assembly.materials.begin(), assembly.materials.end(), yields));
   if (o.settings.plane_stress && dimension != 2)
     problems.add({}, "formulation: assumption = \"plane_stress\" is for bodies in 2D - leave it out");
-  bool const springs = !o.settings.published && o.settings.corrected_material;
+  EquationSet const& equations = o.settings.equations;
+  bool const springs = equations.has_hourglass_stiffness() && equations.has_correction();
   o.settings.cfl = std::isnan(assembly.cfl) ? 0.3 : assembly.cfl;
   check_alike(assembly, problems);
   for (std::size_t b = 0; b < assembly.formulations.size(); ++b) {

@@ -16,9 +16,13 @@ class ParticlePartition {
  public:
   ParticlePartition() = default;
   /// cuts: of each body.
-  explicit ParticlePartition(std::vector<Partition> cuts) : cuts_(std::move(cuts)) {}
+  explicit ParticlePartition(std::vector<Partition> cuts) : cuts_(std::move(cuts)) {
+    for (Partition const& body : cuts_) own_.push_back(body.own());
+  }
 
   std::vector<Partition> const& cuts() const { return cuts_; }
+  /// The local slots of each body.
+  std::vector<Range> const& own() const { return own_; }
   /// Calls f(slot, index among the particles of the rank).
   template <class F>
   void each(int rank, F const& f) const {
@@ -55,6 +59,7 @@ class ParticlePartition {
 
  private:
   std::vector<Partition> cuts_;
+  std::vector<Range> own_;
 };
 
 }  // namespace piola::adaptle

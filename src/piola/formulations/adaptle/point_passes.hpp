@@ -19,7 +19,7 @@ struct Drift {
   OwnComponents x, v_half, thickness_half, force, heat, hourglass, compression, contact;
   double* position;
   MaterialTable material;
-  bool published;  ///< material sums
+  EquationSet equations;
   FailureSlot* failure;
 
   Drift(System const& s, MaterialTable const& table, double step)
@@ -43,7 +43,7 @@ struct Drift {
         contact(write(s.field.contact)),
         position(s.position),
         material(table),
-        published(s.settings.published),
+        equations(s.settings.equations),
         failure(s.failure) {}
 
   PIOLA_FN void operator()(Range block) const {
@@ -104,7 +104,7 @@ struct Drift {
     r[R::volume] = select(there, volume.scalar<Lanes>(g.first), Lanes(0.0));
     Lanes const factor = positive_factor(viscosity.scalar<Lanes>(g.first));
     r[R::viscosity] = select(phi.scalar<Lanes>(g.first) > 0.0 && there, -factor, factor);
-    store_in_records<D>(material, published, g, 0, r);
+    store_in_records<D>(material, equations, g, 0, r);
   }
 };
 

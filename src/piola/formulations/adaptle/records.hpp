@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/adaptle/state.hpp"
-#include "piola/kernels/cubic_spline.hpp"
+#include "piola/kernels/list.hpp"
 #include "piola/math/tensor.hpp"
 #include "piola/neighbours/partial_records.hpp"
 
@@ -33,25 +33,42 @@ template <int D>
 struct MaterialRecord {
   static constexpr int u = 0, v = D, volume = 2 * D, viscosity = 2 * D + 1, X = 2 * D + 2, A = X + D, a = A + D * D,
                        N = a + D, n = N + D * D, inverse_J = n + D;
-  static constexpr int values(bool published) { return published ? inverse_J + 1 : a; }
-  static constexpr int stride(bool published) { return whole(values(published)); }
+  PIOLA_FN static constexpr int values(EquationSet e) { return e.records_deformation() ? inverse_J + 1 : a; }
+  PIOLA_FN static constexpr int stride(EquationSet e) { return whole(values(e)); }
 };
 
-/// A kernel of one smoothing length.
-template <int D>
+/// A kernel of one smoothing length, of support 2h. Of contact always the cubic spline.
+template <int D, class Shape = CubicSpline>
 struct Kernel {
+  static_assert(Shape::support == 2);
   double inverse_h, norm;
-  PIOLA_FN explicit Kernel(double h) : inverse_h(1 / h), norm(CubicSpline::sigma(D)) {
+  PIOLA_FN explicit Kernel(double h) : inverse_h(1 / h), norm(Shape::sigma(D)) {
     for (int c = 0; c < D; ++c) norm *= inverse_h;
   }
-  PIOLA_FN double operator()(double r) const { return norm * CubicSpline::w(r * inverse_h); }
+  PIOLA_FN double operator()(double r) const { return norm * w(r * inverse_h); }
   /// s = -W'(r)/r, so that grad_a W_ab = s (x_b - x_a), and W.
   template <class T>
   [[gnu::always_inline]] PIOLA_FN void evaluate(T const& square, T& s, T& W) const {
     T const inverse_r = inverse_square_root(maximum(square, T(1e-300)));
     T const q = square * (inverse_r * inverse_h), scaled = (-norm * inverse_h) * inverse_r;
-    s = CubicSpline::dw(q) * scaled;
-    W = norm * CubicSpline::w(q);
+    s = dw(q) * scaled;
+    W = norm * w(q);
+  }
+
+ private:
+  template <class T>
+  [[gnu::always_inline]] PIOLA_FN static T w(T const& q) {
+    if constexpr (requires { Shape::w(D, q); })
+      return Shape::w(D, q);
+    else
+      return Shape::w(q);
+  }
+  template <class T>
+  [[gnu::always_inline]] PIOLA_FN static T dw(T const& q) {
+    if constexpr (requires { Shape::dw(D, q); })
+      return Shape::dw(D, q);
+    else
+      return Shape::dw(q);
   }
 };
 

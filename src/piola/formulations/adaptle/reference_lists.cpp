@@ -35,8 +35,8 @@ void ReferenceLists::build(ParticleSet const& set, std::vector<BodyConstants> co
   *this = {};
   particles_ = static_cast<Index>(set.size());
   own_ = own;
-  published_ = settings.published;
-  rounded_ = !published_ && settings.corrected_material;
+  equations_ = settings.equations;
+  kernel_ = settings.kernel;
   begin_ = LazyZeroArray<Offset>(at(particles_) + 1);
   filled_ = LazyZeroArray<std::uint8_t>(at(particles_));
   part_ = LazyZeroArray<std::uint8_t>(at(particles_) + 16);
@@ -47,22 +47,35 @@ void ReferenceLists::build(ParticleSet const& set, std::vector<BodyConstants> co
       for (int c = 0; c < 3; ++c) fields.X.at(j, c) = set.X[at(j)][at(c)];
       fields.volume.at(j) = set.volume[at(j)];
     });
-  if (published_) {
+  if (equations_.stores_kernel()) {
     for_each_local([&](Index i) {
       for (int c = 0; c < 9; ++c) fields.N.at(i, c) = c % 4 == 0 ? 1 : 0;
       for (int c = 0; c < 3; ++c) fields.gradient_mean.at(i, c) = 0;
     });
-    if (settings.corrected_material) correct(fields, bodies, set.dimension);
+    if (equations_.has_correction()) correct(fields, bodies, set.dimension);
     sum_gradients([](Index) { return true; }, fields);
   } else {
-    invert(fields, set.dimension, settings.corrected_material);
+    invert(fields, set.dimension);
   }
   int const components =
-      set.dimension == 2 ? MaterialRecord<2>::values(published_) : MaterialRecord<3>::values(published_);
+      set.dimension == 2 ? MaterialRecord<2>::values(equations_) : MaterialRecord<3>::values(equations_);
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    rows_.emplace_back(set, LatticeStencils::BodyInput{set.bodies[b], own[b], bodies[b].reference_h}, begin_,
-                       neighbour_, lanes, rounded_, components);
+    rows_.emplace_back(set, LatticeStencils::BodyInput{set.bodies[b], own[b], bodies[b].reference_h, *kernel_}, begin_,
+                       neighbour_, lanes, equations_.rounds_gradients(), components);
   for (LatticeStencils& rows : rows_) row_views_.push_back(rows.view());
+  if (std::all_of(rows_.begin(), rows_.end(), [](LatticeStencils const& rows) { return rows.is_lattice(); })) return;
+  set.dimension == 2 ? allocate_records<2>() : allocate_records<3>();
+}
+
+/// With a filler after the last, whose viscosity is not negative.
+template <int D>
+void ReferenceLists::allocate_records() {
+  using R = MaterialRecord<D>;
+  int const stride = R::stride(equations_);
+  records_ = Memory((at(particles_) + 1) * at(stride));
+  double* const filler = records_.data() + std::ptrdiff_t{particles_} * stride;
+  filler[R::viscosity] = 1;
+  if (equations_.records_deformation()) filler[R::inverse_J] = 1;
 }
 
 void ReferenceLists::find_edge() {
@@ -136,16 +149,19 @@ void ReferenceLists::list(ParticleSet const& set, BodyInput const& body, int lan
 
 void ReferenceLists::add_pair(int dimension, double h, Index j, double square) {
   double s = 0, W = 0;
-  if (j < particles_) kernel_of(dimension, h, square, s, W);
+  if (j < particles_) kernel_of(*kernel_, dimension, h, square, s, W);
   neighbour_.push_back(j);
-  if (rounded_) gradient_.push_back(static_cast<float>(s));
-  if (!rounded_) s_.push_back(s);
-  if (published_) W_.push_back(W);
+  if (equations_.rounds_gradients())
+    gradient_.push_back(static_cast<float>(s));
+  else
+    s_.push_back(s);
+  if (equations_.stores_kernel()) W_.push_back(W);
 }
 
 /// K from the same rounded s as the sums, so that gradients of linear fields stay exact to double precision; the
 /// identity where there is no correction.
-void ReferenceLists::invert(Fields& fields, int dimension, bool corrected) {
+void ReferenceLists::invert(Fields& fields, int dimension) {
+  bool const corrected = equations_.has_correction();
   for_each_local([&](Index i) {
     double G[3]{}, A[9]{}, K[9]{1, 0, 0, 0, 1, 0, 0, 0, 1};
     for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
@@ -178,10 +194,10 @@ void ReferenceLists::sum_gradients(F const& active, Fields& fields) {
       if (j >= particles_ || !active(j)) continue;
       double const Vs = fields.volume.at(j) * gradient(k);
       for (int c = 0; c < 3; ++c) G[c] += Vs * (fields.X.at(j, c) - fields.X.at(i, c));
-      if (published_) W += fields.volume.at(j) * W_[at(k)];
+      if (equations_.stores_kernel()) W += fields.volume.at(j) * W_[at(k)];
     }
     for (int c = 0; c < 3; ++c) fields.gradient_sum.at(i, c) = G[c];
-    if (published_) fields.kernel_sum.at(i) = W;
+    if (equations_.stores_kernel()) fields.kernel_sum.at(i) = W;
   });
 }
 
@@ -189,7 +205,7 @@ void ReferenceLists::correct(Fields& fields, std::vector<BodyConstants> const& b
   for (std::size_t b = 0; b < bodies.size(); ++b)
     for (Index i = own_[b].first; i < own_[b].last; ++i) {
       double none = 0, W0 = 0, G[3]{}, xW[3]{}, moments[9]{};
-      kernel_of(dimension, bodies[b].reference_h, 0, none, W0);
+      kernel_of(*kernel_, dimension, bodies[b].reference_h, 0, none, W0);
       double S = fields.volume.at(i) * W0;
       for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
         Index const j = neighbour_[at(k)];
@@ -215,7 +231,7 @@ void ReferenceLists::correct(Fields& fields, std::vector<BodyConstants> const& b
     }
 }
 
-void ReferenceLists::choose(Fields& fields, bool as_published) {
+void ReferenceLists::choose(Fields& fields) {
   bool deleted = false;
   for (Index i = 0; i < particles_; ++i) deleted = deleted || !(fields.active.at(i) > 0);
   if (deleted || deleted_) sum_gradients([&](Index j) { return fields.active.at(j) > 0; }, fields);
@@ -229,9 +245,9 @@ void ReferenceLists::choose(Fields& fields, bool as_published) {
     bool beside = false;
     for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1] && other && !beside; ++k)
       if (Index const j = neighbour_[at(k)]; j < particles_) beside = lagrangian(j);
-    bool const kinematic = own || (as_published && beside);
+    bool const kinematic = own || (beside && equations_.deforms_eulerian());
     if (kinematic) part_[at(i)] |= Part::kinematic;
-    if (own || (beside && !as_published)) part_[at(i)] |= Part::target;
+    if (own || (beside && equations_.has_reactions())) part_[at(i)] |= Part::target;
     fields.gap.at(i) = kinematic ? std::max(fields.gap.at(i), 0.0) : -1;
   });
 }
@@ -253,20 +269,21 @@ void ReferenceLists::mark_mixed(Fields const& fields) {
     });
 }
 
-void ReferenceLists::put_into(MaterialTable& table) const {
+void ReferenceLists::put_into(MaterialTable& table) {
   table.begin = begin_.data();
   table.neighbour = neighbour_.data();
   table.gradient = gradient_.data();
   table.s = s_.data();
   table.W = W_.data();
   table.part = part_.data();
+  table.record = records_.data();
   table.rows_of = row_views_.data();
 }
 
 std::size_t ReferenceLists::bytes() const {
   std::size_t rows = 0;
   for (LatticeStencils const& of_body : rows_) rows += of_body.bytes();
-  return rows + part_.size() + sizeof(Offset) * begin_.size() + sizeof(Index) * neighbour_.size() +
+  return rows + records_.bytes() + part_.size() + sizeof(Offset) * begin_.size() + sizeof(Index) * neighbour_.size() +
          sizeof(float) * gradient_.size() + sizeof(double) * (s_.size() + W_.size()) + filled_.size();
 }
 

@@ -3,7 +3,6 @@
 #include "piola/exec/lazy_zero_array.hpp"
 #include "piola/formulations/adaptle/fields.hpp"
 #include "piola/formulations/adaptle/lattice_stencils.hpp"
-#include <algorithm>
 #include <vector>
 
 namespace piola::adaptle {
@@ -20,7 +19,7 @@ class ReferenceLists {
 
   /// Determines which particles need a deformation gradient and which receive material forces. Kinematic ones get gap =
   /// 0, others -1. Deleted ones are removed from the sums of their neighbours. Reads phi and active of all particles.
-  void choose(Fields& fields, bool as_published);
+  void choose(Fields& fields);
 
   /// Calls f(b) for the reference neighbours of a within the distance [m].
   template <class F>
@@ -45,12 +44,8 @@ class ReferenceLists {
       if (Index const b = neighbour_[static_cast<std::size_t>(k)]; b < particles_) f(b);
   }
 
-  void put_into(MaterialTable& table) const;
+  void put_into(MaterialTable& table);
   bool built() const { return !begin_.empty(); }
-  /// Whether some body is not on a lattice, so that records are read from a table of all particles.
-  bool needs_records() const {
-    return std::any_of(rows_.begin(), rows_.end(), [](LatticeStencils const& rows) { return !rows.is_lattice(); });
-  }
   int neighbours(Index a) const {
     auto const i = static_cast<std::size_t>(a);
     return static_cast<int>(begin_[i + 1] - begin_[i]) - filled_[i];
@@ -72,20 +67,24 @@ class ReferenceLists {
   }
   bool has(Index slot, Range const& own) const { return slot >= own.first && slot < own.last; }
   void find_edge();
+  template <int D>
+  void allocate_records();
   void mark_mixed(Fields const& fields);
   void add_pair(int dimension, double h, Index j, double square);
   void correct(Fields& fields, std::vector<BodyConstants> const& bodies, int dimension);
-  void invert(Fields& fields, int dimension, bool corrected);
+  void invert(Fields& fields, int dimension);
   template <class F>
   void sum_gradients(F const& active, Fields& fields);
   /// s of pair k as used by the sums.
   double gradient(Offset k) const {
     auto const place = static_cast<std::size_t>(k);
-    return rounded_ ? static_cast<double>(gradient_[place]) : s_[place];
+    return equations_.rounds_gradients() ? static_cast<double>(gradient_[place]) : s_[place];
   }
 
   Index particles_ = 0;
-  bool published_ = false, rounded_ = false, deleted_ = false;
+  EquationSet equations_;
+  piola::Kernel const* kernel_ = nullptr;
+  bool deleted_ = false;
   std::vector<Range> own_;
   std::vector<Index> edge_;  ///< local particles with ghost neighbours
   LazyZeroArray<Offset> begin_;
@@ -96,6 +95,7 @@ class ReferenceLists {
   LazyZeroArray<std::uint8_t> part_;
   std::vector<LatticeStencils> rows_;    ///< per body
   std::vector<MaterialRows> row_views_;  ///< per body
+  Memory records_;                       ///< of all particles; empty if all bodies are on lattices
 };
 
 }  // namespace piola::adaptle

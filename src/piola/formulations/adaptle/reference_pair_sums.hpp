@@ -7,21 +7,10 @@
 /// Common parts of the two sweeps over reference neighbours: their forms, and access to values of neighbours.
 namespace piola::adaptle::inline PIOLA_BACKEND {
 
-/// Forms of the sums over reference neighbours.
-enum class MaterialForm {
-  corrected,       ///< G_ab = K_a s r, viscosity along the line of centres
-  plain,           ///< the same with K_a = 1
-  published,       ///< set (2) with the correction (4), (5): G_ab = K_a (s r S - G W) / S^2
-  published_plain  ///< set (2) with G_ab = s r
-};
-constexpr bool is_published(MaterialForm form) {
-  return form == MaterialForm::published || form == MaterialForm::published_plain;
-}
-
 /// s of the pairs as stored: floats if K compensates the rounding, else doubles.
 template <MaterialForm Form>
 PIOLA_FN auto gradients_of(MaterialTable const& table) {
-  if constexpr (Form == MaterialForm::corrected)
+  if constexpr (EquationSet{Form}.rounds_gradients())
     return table.gradient;
   else
     return table.s;
@@ -34,17 +23,17 @@ struct RecordPlace {
   PIOLA_FN double& operator[](int c) const { return value[c * step]; }
 };
 template <int D>
-PIOLA_FN RecordPlace record_of(MaterialTable const& table, bool published, Index slot) {
+PIOLA_FN RecordPlace record_of(MaterialTable const& table, EquationSet equations, Index slot) {
   if (table.rows.record != nullptr) return {table.rows.record + (slot - table.rows.first), table.rows.stride};
-  return {table.record + static_cast<std::ptrdiff_t>(slot) * MaterialRecord<D>::stride(published), 1};
+  return {table.record + static_cast<std::ptrdiff_t>(slot) * MaterialRecord<D>::stride(equations), 1};
 }
 
 /// Components [0, N) of the records of listed neighbours from pair k on, also of lattices, where this is slow.
 template <int D, int N>
-PIOLA_FN void load_listed(MaterialTable const& table, bool published, Offset k, Index filler, Lanes (&f)[N]) {
+PIOLA_FN void load_listed(MaterialTable const& table, EquationSet equations, Offset k, Index filler, Lanes (&f)[N]) {
   MaterialRows const& rows = table.rows;
   if (rows.record == nullptr)
-    return load_components<N>(table.record, MaterialRecord<D>::stride(published), table.neighbour + k, f);
+    return load_components<N>(table.record, MaterialRecord<D>::stride(equations), table.neighbour + k, f);
   double gathered[N][lane_count];
   for (int l = 0; l < lane_count; ++l) {
     Index const j = table.neighbour[k + l], place = j == filler ? rows.empty : j - rows.first;
@@ -68,7 +57,8 @@ PIOLA_FN void sum_listed(MaterialTable const& table, Index slot, Pairs const& pa
   using R = MaterialRecord<D>;
   constexpr int first = Pairs::first_component, last = Pairs::last_component > R::A ? Pairs::last_component : R::A,
                 values = last - first;  // with X
-  constexpr int stride = R::stride(is_published(Form));
+  constexpr EquationSet equations{Form};
+  constexpr int stride = R::stride(equations);
   Lanes sums[Pairs::sums];
   Lanes const zeros = zeros_from(own[R::volume]);
   for (auto& s : sums) s = zeros;
@@ -79,7 +69,7 @@ PIOLA_FN void sum_listed(MaterialTable const& table, Index slot, Pairs const& pa
     PairGeometry<D, Lanes> g;
     for (int c = 0; c < D; ++c) g.r[c] = f[R::X - first + c] - own[R::X + c];
     g.s = load_gradients(gradients_of<Form>(table) + k);
-    if constexpr (Form == MaterialForm::published) g.kernel = load<Lanes>(table.W + k);
+    if constexpr (equations.has_kernel_part()) g.kernel = load<Lanes>(table.W + k);
     pairs.add(sums, mine, g, [&](int c) { return f[c - first]; });
   }
   if constexpr (Pairs::extrema > 0) {
@@ -96,6 +86,7 @@ PIOLA_FN void sum_listed(MaterialTable const& table, Index slot, Pairs const& pa
 /// exceed the registers.
 template <int D, MaterialForm Form, class Pairs>
 PIOLA_FN void sum_rows(MaterialRows const& rows, Index place, Pairs const& pairs, Lanes (&result)[Pairs::sums]) {
+  constexpr EquationSet equations{Form};
   StencilTable const& table = rows.stencil;
   Lanes sums[Pairs::sums];
   for (auto& s : sums) s = Lanes(0.0);
@@ -107,12 +98,12 @@ PIOLA_FN void sum_rows(MaterialRows const& rows, Index place, Pairs const& pairs
     double const* const there = rows.record + (place + entry.delta);
     PairGeometry<D, Lanes> g;
     g.s = Lanes(offset.s);
-    if constexpr (Form == MaterialForm::published) g.kernel = Lanes(table.kernel[entry.offset]);
+    if constexpr (equations.has_kernel_part()) g.kernel = Lanes(table.kernel[entry.offset]);
     for (int c = 0; c < D; ++c) g.r[c] = Lanes(offset.r[c]);
     if (entry.weights >= 0) {
       Lanes const weight = load<Lanes>(table.weights + entry.weights);
       g.s = weight * g.s;
-      if constexpr (Form == MaterialForm::published) g.kernel = weight * g.kernel;
+      if constexpr (equations.has_kernel_part()) g.kernel = weight * g.kernel;
     }
     pairs.add(sums, mine, g, [&](int c) { return load<Lanes>(there + c * rows.stride); });
   }
@@ -121,28 +112,29 @@ PIOLA_FN void sum_rows(MaterialRows const& rows, Index place, Pairs const& pairs
 
 /// Stores components [first, first + N) of the records of a group.
 template <int D, int N>
-PIOLA_FN void store_in_records(MaterialTable const& table, bool published, Group g, int first, Lanes const (&f)[N]) {
-  RecordPlace const place = record_of<D>(table, published, g.first);
+PIOLA_FN void store_in_records(MaterialTable const& table, EquationSet equations, Group g, int first,
+                               Lanes const (&f)[N]) {
+  RecordPlace const place = record_of<D>(table, equations, g.first);
   if (table.rows.record != nullptr) {
     for (int c = 0; c < N; ++c) store_group(place.value + (first + c) * place.step, g, f[c]);
     return;
   }
   double* to[lane_count];
   for (int l = 0; l < lane_count; ++l)
-    to[l] = l < g.count ? place.value + std::ptrdiff_t{l} * MaterialRecord<D>::stride(published) : nullptr;
+    to[l] = l < g.count ? place.value + std::ptrdiff_t{l} * MaterialRecord<D>::stride(equations) : nullptr;
   store_records(to, first, f);
 }
 /// Loads them.
 template <int D, int N>
-PIOLA_FN void load_own_records(MaterialTable const& table, bool published, Group g, int first, Lanes (&f)[N]) {
-  RecordPlace const place = record_of<D>(table, published, g.first);
+PIOLA_FN void load_own_records(MaterialTable const& table, EquationSet equations, Group g, int first, Lanes (&f)[N]) {
+  RecordPlace const place = record_of<D>(table, equations, g.first);
   if (table.rows.record != nullptr) {
     for (int c = 0; c < N; ++c) f[c] = load<Lanes>(place.value + (first + c) * place.step);
     return;
   }
   Index slots[lane_count];
   for (int l = 0; l < lane_count; ++l) slots[l] = l < g.count ? l : 0;
-  load_components<N>(place.value + first, MaterialRecord<D>::stride(published), slots, f);
+  load_components<N>(place.value + first, MaterialRecord<D>::stride(equations), slots, f);
 }
 
 /// Lanes of the particles with wants(slot).
@@ -179,7 +171,7 @@ PIOLA_FN void each_in_lists(MaterialTable const& table, Pairs const& pairs, Rang
     double a[lane_count][whole(Pairs::sums + 1)];
     for (int l = 0; l < lane_count; ++l) {
       if (lane(marks, l) > 0)
-        sum_listed<D, Form>(table, g.first + l, pairs, record_of<D>(table, is_published(Form), g.first + l), a[l]);
+        sum_listed<D, Form>(table, g.first + l, pairs, record_of<D>(table, EquationSet{Form}, g.first + l), a[l]);
       else
         for (double& value : a[l]) value = 0;
     }

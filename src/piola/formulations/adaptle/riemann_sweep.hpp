@@ -10,7 +10,7 @@ namespace piola::adaptle::inline PIOLA_BACKEND {
 ///   v* = (Z_a v_a + Z_b v_b + t_b - t_a) / (Z_a + Z_b)
 ///   F_a = sum_b 2 V_a V_b t* |r| s,   L_a = sum_b 2 V_b (v* - v_a) (x) g
 /// Heat is the power of the pair forces on v* - v_a. Uncorrected gradients; all particles Eulerian.
-template <int D>
+template <int D, class Shape>
 struct RiemannSweep {
   using R = SpatialRecord<D, false>;
   SpatialTable table;
@@ -28,7 +28,7 @@ struct RiemannSweep {
     SpatialTarget const target(table, number);
     double const* own = target.own;
     BodyConstants const& b = body[body_of[target.slot]];
-    Kernel<D> const kernel(b.h);
+    Kernel<D, Shape> const kernel(b.h);
     Lanes sum[count], mu = Lanes(0.0);
     for (auto& a : sum) a = Lanes(0.0);
     for (Index k = 0; k < target.length; k += lane_count) {
@@ -48,8 +48,8 @@ struct RiemannSweep {
     out[SpatialResult::compression] = largest_of(mu);
   }
 
-  PIOLA_FN void add(double const* own, Lanes const* f, Kernel<D> const& kernel, BodyConstants const& b, Lanes* sum,
-                    Lanes& mu) const {
+  PIOLA_FN void add(double const* own, Lanes const* f, Kernel<D, Shape> const& kernel, BodyConstants const& b,
+                    Lanes* sum, Lanes& mu) const {
     Vec<D, Lanes> const r = difference<D>(f, R::x, own), w = difference<D>(f, R::v, own);
     Lanes const square = dot(r, r), inverse_r = inverse_square_root(maximum(square, Lanes(1e-300)));
     Lanes s, W;

@@ -14,12 +14,6 @@ constexpr Index most_neighbours = 4096;
 /// The first particle of the case, where it starts: not of the moment, so that cells stay where they are.
 std::array<double, 3> origin_of_cells(System const& s) { return point_at(s.field.X, 0, 3); }
 
-/// Whether this rank works on it.
-bool is_local(System const& s, Index slot) {
-  Range const own = s.part[s.body_of[slot]];
-  return slot >= own.first && slot < own.last;
-}
-
 }  // namespace
 
 /// Sorts all particles into cells, on one rank. If all are Eulerian and none is in contact with another body, all take
@@ -57,7 +51,7 @@ void SpatialLists::choose_targets(System const& s) {
     }
     group_[at(k)] = s.body_of[slot];
     near_[at(slot)] = marks_.exports(cell) & HaloCells::flow;
-    if (!is_local(s, slot)) continue;
+    if (!s.is_local(slot)) continue;
     if ((marks_.reads(cell) & HaloCells::flow) != 0) spatial_.target.push_back(k);
     if ((marks_.reads(cell) & HaloCells::touch) != 0) contact_.target.push_back(k);
   }

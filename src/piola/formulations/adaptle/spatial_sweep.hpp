@@ -26,9 +26,9 @@ struct SpatialTarget {
 ///        + m_a m_b Pi/2 (gt_ba - gt_ab) - m_a m_b f^n (R_b gt_ba - R_a gt_ab)
 ///   L_a  = sum_b V_b (v_b - v_a) (x) gt_ab
 /// Heat is half the power of viscosity and artificial stress on the relative velocity; that of stress follows from L.
-/// Total-Lagrangian particles have M = 0, so that the same sums serve mixed pairs. In the printed interface only
+/// Total-Lagrangian particles have M = 0, so that the same sums serve mixed pairs. In the published interface only
 /// Eulerian targets keep stress and viscosity.
-template <int D, bool Corrected, bool Stressed>
+template <int D, bool Corrected, bool Stressed, class Shape>
 struct SpatialSweep {
   using R = SpatialRecord<D, Corrected>;
   SpatialTable table;
@@ -51,7 +51,7 @@ struct SpatialSweep {
   PIOLA_FN void visit(Index number) const {
     SpatialTarget const target(table, number);
     BodyConstants const& b = body[body_of[target.slot]];
-    Kernel<D> const kernel(b.h);
+    Kernel<D, Shape> const kernel(b.h);
     double const inverse_reference = 1 / kernel(b.spacing);
     Accumulated sum;
     Lanes const zeros = zeros_from(target.own[R::volume]);
@@ -67,7 +67,7 @@ struct SpatialSweep {
   }
 
   [[gnu::always_inline]] PIOLA_FN void add_pairs(double const* own, Index const* list, Lanes const* f,
-                                                 BodyConstants const& b, Kernel<D> const& kernel,
+                                                 BodyConstants const& b, Kernel<D, Shape> const& kernel,
                                                  double inverse_reference, Accumulated& sum) const {
     Vec<D, Lanes> const r = difference<D>(f, R::x, own), w = difference<D>(f, R::v, own);
     Lanes const square = dot(r, r);
@@ -94,7 +94,7 @@ struct SpatialSweep {
     bool const here = own[R::viscosity] > 0;
     Lanes factor = 0.5 * (maximum(f[R::viscosity], -1.0 * f[R::viscosity]) + std::fabs(own[R::viscosity]));
     if (!here) factor = select(f[R::viscosity] > 0.0, factor, Lanes(0.0));
-    if (!here && settings.interface_form == Interface::as_published) factor = Lanes(0.0);
+    if (!here && settings.equations.has_mixed_viscosity()) factor = Lanes(0.0);
     Lanes const pressure = plain * factor;
     Lanes stress_weight = Lanes(0.0);
     if constexpr (Stressed) {
@@ -117,9 +117,9 @@ struct SpatialSweep {
     return sum;
   }
 
-  /// In the published interface total-Lagrangian particles have their stress forces from material sums alone.
+  /// Total-Lagrangian particles have reactions of Eulerian ones, or their stress forces from material sums alone.
   PIOLA_FN bool bears_stress(double const* own) const {
-    return settings.interface_form == Interface::owner || own[R::viscosity] > 0;
+    return settings.equations.has_reactions() || own[R::viscosity] > 0;
   }
 
   [[gnu::always_inline]] PIOLA_FN Lanes mixed_weight(double own, Lanes const& other) const {
@@ -229,7 +229,7 @@ struct SpatialSweep {
 
 /// Corrections (4), (5) of one spatial target, dropped if they would change a gradient by more than C_f, invert it, or
 /// are singular.
-template <int D>
+template <int D, class Shape>
 struct CorrectSpatial {
   using R = SpatialRecord<D, true>;
   SpatialTable table;
@@ -248,7 +248,7 @@ struct CorrectSpatial {
   PIOLA_FN void visit(Index number) const {
     SpatialTarget const target(table, number);
     BodyConstants const& b = body[body_of[target.slot]];
-    Kernel<D> const kernel(b.h);
+    Kernel<D, Shape> const kernel(b.h);
     Lanes sum[width];
     Lanes const zeros = zeros_from(target.own[R::volume]);
     for (auto& a : sum) a = zeros;
@@ -288,7 +288,8 @@ struct CorrectSpatial {
     if (admissible(target, trial, kernel, b.h)) out = trial;
   }
 
-  PIOLA_FN bool admissible(SpatialTarget const& target, Correction const& k, Kernel<D> const& kernel, double h) const {
+  PIOLA_FN bool admissible(SpatialTarget const& target, Correction const& k, Kernel<D, Shape> const& kernel,
+                           double h) const {
     Mat<D> N;
     Vec<D> n{};
     for (int i = 0; i < D; ++i)

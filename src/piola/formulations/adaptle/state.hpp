@@ -2,19 +2,19 @@
 #pragma once
 #include "piola/exec/device_loops.hpp"
 #include "piola/exec/field.hpp"
+#include "piola/formulations/adaptle/equation_set.hpp"
+#include "piola/kernels/registry.hpp"
 #include "piola/materials/registry.hpp"
 #include "piola/neighbours/cell_list.hpp"
 #include "piola/neighbours/pair_table_views.hpp"
+#include <array>
+#include <span>
 
 /// State of an AdapTLE run for its loops: plain data, independent of the instruction set. Particles keep their slots,
 /// those of a body contiguous; data for spatial sums are gathered into the order of the cell grid in every step.
 namespace piola::adaptle {
 
 enum class Viscosity { compression, monaghan, balsara, morris_monaghan, riemann };
-enum class Interface {
-  owner,        ///< each particle acts through its own gradients, its neighbours receive the reaction: conserves
-  as_published  ///< each particle sums with its own kernel type over all its neighbours, as published
-};
 /// Artificial stress between a total-Lagrangian and an Eulerian particle.
 enum class MixedStress { both, eulerian_only, none };
 
@@ -186,11 +186,10 @@ struct ContactTable {
 
 struct Settings {
   Viscosity viscosity = Viscosity::compression;
-  Interface interface_form = Interface::owner;
+  EquationSet equations;
   MixedStress mixed_stress = MixedStress::both;
-  bool corrected = false;           ///< spatial sums
-  bool corrected_material = false;  ///< material sums
-  bool published = false;           ///< material sums of set (2), exactly as published
+  piola::Kernel const* kernel = nullptr;  ///< of sums over neighbours, one of LaneKernels
+  bool corrected = false;                 ///< spatial sums
   bool plane_stress = false, artificial_stress = false;
   int exponent = 4;         ///< n of the artificial stress
   double fallback = 1e300;  ///< C_f
@@ -237,6 +236,15 @@ struct System {
   std::int8_t* conversion_request = nullptr;  ///< conversion request per slot: 0 none, 1 with its neighbours, 2 alone
   double* partial = nullptr;                  ///< room for reductions, 16 per block
   FailureSlot* failure = nullptr;
+
+  /// Per body: the local slots.
+  std::span<Range const> local() const { return {part, static_cast<std::size_t>(bodies)}; }
+  bool is_local(Index slot) const {
+    Range const of_body = part[body_of[slot]];
+    return slot >= of_body.first && slot < of_body.last;
+  }
+  /// Reference position of a local particle or a ghost [m].
+  std::array<double, 3> reference_position(Index slot) const { return point_at(field.X, slot, 3); }
 };
 
 /// Codes of FailureSlot.

@@ -41,18 +41,14 @@ struct Step {
 
   void correct() const {
     Range const targets{0, s.spatial.targets};
-    exec::for_each_block(targets, CorrectSpatial<D>{s.spatial, s.settings, s.body, s.body_of, s.correction});
+    with_kernel(*s.settings.kernel, LaneKernels{}, [&]<class Shape>() {
+      exec::for_each_block(targets, CorrectSpatial<D, Shape>{s.spatial, s.settings, s.body, s.body_of, s.correction});
+    });
     exec::for_each_block(targets, FoldCorrection<D>{s.spatial, s.correction});
   }
 
   void sweep() const {
-    Range const targets{0, s.spatial.targets};
-    if (s.settings.viscosity == Viscosity::riemann)
-      exec::for_each_block(targets, RiemannSweep<D>{s.spatial, s.body, s.body_of});
-    else if (s.settings.corrected)
-      sweep_space<true>(targets);
-    else
-      sweep_space<false>(targets);
+    with_kernel(*s.settings.kernel, LaneKernels{}, [&]<class Shape>() { sweep_space<Shape>(); });
     with_form([&](auto form) { add_material_forces<form()>(); });
     ParticleFields const& f = s.field;
     exec::for_each_block(Range{0, s.contact.targets},
@@ -108,14 +104,12 @@ struct Step {
   template <class F>
   void with_form(F const& f) const {
     using Form = MaterialForm;
-    if (s.settings.published && s.settings.corrected_material)
-      f(std::integral_constant<Form, Form::published>{});
-    else if (s.settings.published)
-      f(std::integral_constant<Form, Form::published_plain>{});
-    else if (s.settings.corrected_material)
-      f(std::integral_constant<Form, Form::corrected>{});
-    else
-      f(std::integral_constant<Form, Form::plain>{});
+    switch (s.settings.equations.form) {
+      case Form::corrected: return f(std::integral_constant<Form, Form::corrected>{});
+      case Form::plain: return f(std::integral_constant<Form, Form::plain>{});
+      case Form::published: return f(std::integral_constant<Form, Form::published>{});
+      case Form::published_plain: return f(std::integral_constant<Form, Form::published_plain>{});
+    }
   }
 
   /// Local lattice positions of a body.
@@ -145,12 +139,23 @@ struct Step {
     }
   }
 
-  template <bool Corrected>
+  template <class Shape>
+  void sweep_space() const {
+    Range const targets{0, s.spatial.targets};
+    if (s.settings.viscosity == Viscosity::riemann)
+      exec::for_each_block(targets, RiemannSweep<D, Shape>{s.spatial, s.body, s.body_of});
+    else if (s.settings.corrected)
+      sweep_space<Shape, true>(targets);
+    else
+      sweep_space<Shape, false>(targets);
+  }
+
+  template <class Shape, bool Corrected>
   void sweep_space(Range targets) const {
     if (s.settings.artificial_stress)
-      exec::for_each_block(targets, SpatialSweep<D, Corrected, true>{s.spatial, s.settings, s.body, s.body_of});
+      exec::for_each_block(targets, SpatialSweep<D, Corrected, true, Shape>{s.spatial, s.settings, s.body, s.body_of});
     else
-      exec::for_each_block(targets, SpatialSweep<D, Corrected, false>{s.spatial, s.settings, s.body, s.body_of});
+      exec::for_each_block(targets, SpatialSweep<D, Corrected, false, Shape>{s.spatial, s.settings, s.body, s.body_of});
   }
 
   /// Reduces the results of the step over ranks.

@@ -38,7 +38,7 @@ FieldRef spatial_records(System const& s) {
 FieldRef material_records(System const& s, int body) {
   MaterialRows const& rows = s.material.rows_of[body];
   if (rows.record != nullptr) return {.data = rows.record, .component_stride = rows.stride, .particle_stride = 1};
-  int const stride = with_material(s.dimension, [&](auto r) { return decltype(r)::stride(s.settings.published); });
+  int const stride = with_material(s.dimension, [&](auto r) { return decltype(r)::stride(s.settings.equations); });
   return {.data = s.material.record + std::ptrdiff_t{s.body[body].first} * stride,
           .component_stride = 1,
           .particle_stride = stride};
@@ -68,7 +68,7 @@ StepHaloExchanges::ReferenceHalo StepHaloExchanges::reference_halo(System const&
       HaloPlan(cuts_[static_cast<std::size_t>(body)].from_zero(), std::move(read)), material_records(s, body), {}, {}};
   auto const [motion, stress, values] = with_material(s.dimension, [&](auto r) {
     using R = decltype(r);
-    return std::array{R::X, R::A, R::values(s.settings.published)};
+    return std::array{R::X, R::A, R::values(s.settings.equations)};
   });
   halo.stress = halo.motion;
   halo.stress.data += stress * halo.motion.component_stride;

@@ -41,8 +41,7 @@ void warn_of_description(BodyOptions const& o, Options const& all, BodyWarnings&
   if (!adaptive && !o.deletes && !patch)
     ignore(warnings, {"jacobian_min", "jacobian_max"}, "particles convert with description = \"adaptive\"");
   if (!patch) ignore(warnings, {"blend"}, "it belongs to description = \"patch\"");
-  if (patch && all.settings.interface_form == Interface::as_published)
-    ignore(warnings, {"blend"}, "interface = \"published\" is sharp");
+  if (patch && !all.settings.equations.blends()) ignore(warnings, {"blend"}, "interface = \"published\" is sharp");
   if (o.description == Description::eulerian)
     ignore(warnings, {"hourglass", "hourglass_stiffness", "material_smoothing_length"},
            "it is for total-Lagrangian particles, and all are Eulerian");
@@ -75,10 +74,10 @@ void warn_of_forces(BodyOptions const& o, Options const& all, int dimension, Bod
   if (o.artificial_stress == 0 && mixture_of(all).lagrangian && mixture_of(all).eulerian)
     ignore(warnings, {"artificial_stress_interface"}, "artificial_stress is zero");
   if (!mixture_of(all).lagrangian) ignore(warnings, {"viscosity_form"}, "no particle is total-Lagrangian");
-  if (warnings.has_setting("viscosity_form", "central") && all.settings.published)
+  if (warnings.has_setting("viscosity_form", "central") && !all.settings.equations.has_central_viscosity())
     ignore(warnings, {"viscosity_form"},
            "correction = \"mixed\" and interface = \"published\" have the published form");
-  if (all.settings.published)
+  if (!all.settings.equations.has_hourglass_stiffness())
     ignore(warnings, {"hourglass_stiffness"}, "it needs viscosity_form = \"central\" and correction = \"material\"");
   if (o.ignition && !is_explosive(warnings.material()))
     ignore(warnings, {"ignition"}, "the material is no explosive (eos = \"jwl\")");

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/adaptle/particle_data.hpp"
+#include "piola/base/contracts.hpp"
+#include "piola/domain/communicator.hpp"
+#include "piola/exec/host_loops.hpp"
+#include "piola/formulations/adaptle/contact.hpp"
+#include "piola/formulations/adaptle/records.hpp"
+#include "piola/formulations/adaptle/subscript.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace piola::adaptle {
+namespace {
+
+template <int D>
+int spatial_stride(Settings const& s) {
+  return s.corrected ? SpatialRecord<D, true>::stride(s.artificial_stress)
+                     : SpatialRecord<D, false>::stride(s.artificial_stress);
+}
+
+/// Sets the constants of a body from its law. kernel_volume: of spatial sums, in volumes of a particle.
+template <class Law>
+void take_constants(Law const& law, BodyOptions const& o, double kernel_volume, BodyConstants& b) {
+  b.releases = o.releases && !law.brittle;  // broken material still carries shear under pressure
+  b.rho0 = law.rho0;
+  b.least_rho = law.rho0 / kernel_volume;
+  b.bulk_modulus = law.kappa;
+  b.shear_modulus = law.mu;
+  b.yield_stress = law.yield_stress({{}, 0, law.initial_temperature(), 0, 0}, 0);
+  b.burst_pressure = law.rho0 * law.front_speed() * law.front_speed() / 4;  // Chapman-Jouguet with gamma = 3
+  b.c = o.bulk_speed ? law.bulk_sound_speed() : law.p_wave_speed();
+  b.shear_share = std::max(0.01, law.s_wave_speed() / law.p_wave_speed());
+  b.young = 9 * law.kappa * law.mu / (3 * law.kappa + law.mu);
+  b.poisson = (3 * law.kappa - 2 * law.mu) / (2 * (3 * law.kappa + law.mu));
+}
+
+/// Number of the law in ContactTable; 0: no contact between bodies.
+int number_of(ContactRule::Law law) {
+  using Law = ContactRule::Law;
+  return law == Law::kernel ? 1 : law == Law::linear ? 2 : law == Law::as_published ? 3 : 0;
+}
+
+}  // namespace
+
+ParticleData::ParticleData(Assembly const& assembly, Options const& options) : set_(assembly.particles) {
+  PIOLA_EXPECTS(options.bodies.size() == set_.bodies.size());
+  system_.dimension = set_.dimension;
+  system_.settings = options.settings;
+  system_.shared = comm::is_parallel();
+  set_bodies(assembly, options);
+  set_contact(assembly);
+  allocate(options, !assembly.rigid_shapes.empty());
+  set_descriptions(options);
+}
+
+void ParticleData::set_bodies(Assembly const& assembly, Options const& options) {
+  for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
+    Body const& from = set_.bodies[k];
+    BodyOptions const& o = options.bodies[k];
+    BodyConstants b;
+    b.material = assembly.materials[k];
+    b.first = static_cast<Index>(from.first);
+    b.last = static_cast<Index>(from.last);
+    for (std::size_t c = 0; c < at(set_.dimension); ++c)
+      b.spacing = c == 0 ? from.spacing[c] : std::max(b.spacing, from.spacing[c]);
+    b.h = o.smoothing_length * b.spacing;
+    double const reach = set_.dimension == 2 ? std::numbers::pi * std::pow(2 * o.smoothing_length, 2)
+                                             : 4 * std::numbers::pi / 3 * std::pow(2 * o.smoothing_length, 3);
+    b.reference_h = o.material_smoothing_length * b.spacing;
+    b.alpha = o.alpha;
+    b.beta = o.beta;
+    b.artificial_stress = o.artificial_stress;
+    b.hourglass = o.hourglass;
+    b.hourglass_stiffness = o.hourglass_stiffness;
+    b.convert_strain = o.convert_strain;
+    b.convert_damage = o.convert_damage;
+    b.jacobian_min = o.jacobian_min;
+    b.jacobian_max = o.jacobian_max;
+    b.tether = o.tether;
+    b.adaptive = o.description == Description::adaptive || o.description == Description::patch;
+    if (o.description == Description::patch) b.tether = b.adaptive = false;
+    b.deletes = o.deletes;
+    with_solid(b.material, [&](auto const& law) { take_constants(law, o, reach, b); });
+    body_.push_back(b);
+  }
+}
+
+void ParticleData::set_contact(Assembly const& assembly) {
+  std::vector<std::array<double, 3>> mean(body_.size());
+  for (std::size_t b = 0; b < body_.size() && !assembly.initial_velocity.empty(); ++b)
+    for (std::size_t c = 0; c < 3; ++c) {
+      Index const first = body_[b].first, n = body_[b].last - first;
+      auto const& velocity = assembly.initial_velocity;
+      mean[b][c] = exec_host::parallel_sum(n, [&](Index k) { return velocity[at(first + k)][c]; }) / n;
+    }
+  contact_pairs_ = contact_pairs(system_.dimension, assembly.contact, body_, mean);
+  exclude_tied_pairs(assembly.ties, body_.size(), contact_pairs_);
+  mark_surface_contact(assembly, contact_pairs_);
+  system_.contact.pair = contact_pairs_.data();
+  system_.contact.as_published = assembly.contact.stiffness;
+  system_.contact.scale = assembly.contact.scale;
+  system_.contact.law = number_of(assembly.contact.law);
+}
+
+void ParticleData::allocate(Options const& options, bool rigid_shapes) {
+  auto const n = static_cast<std::size_t>(set_.size());
+  System& s = system_;
+  Fields::FieldRequirements needs;
+  needs.lagrangian = std::any_of(options.bodies.begin(), options.bodies.end(),
+                                 [](BodyOptions const& o) { return o.description != Description::eulerian; });
+  needs.equations = options.settings.equations;
+  needs.plane_stress = options.settings.plane_stress;
+  needs.touching = body_.size() > 1 || rigid_shapes;
+  fields_.allocate(static_cast<Index>(n), needs);
+  for (std::size_t b = 0; b < body_.size(); ++b)
+    body_of_.insert(body_of_.end(), at(body_[b].last - body_[b].first), static_cast<int>(b));
+  if (options.settings.corrected) correction_ = LazyZeroArray<Correction>(n);
+  position_ = LazyZeroArray<double>(3 * n);
+  eulerian_.resize(n);
+  partial_.resize(16 * (n / 64 + 2));
+  s.bodies = static_cast<int>(body_.size());
+  s.particles = static_cast<Index>(n);
+  s.body = body_.data();
+  s.body_of = body_of_.data();
+  s.field = fields_.refs();
+  s.correction = correction_.data();
+  s.position = position_.data();
+  s.eulerian = eulerian_.data();
+  s.partial = partial_.data();
+  s.failure = &failure_;
+  s.spatial.stride = s.dimension == 2 ? spatial_stride<2>(s.settings) : spatial_stride<3>(s.settings);
+  for (Index i = 0; i < s.particles; ++i) fields_.active.at(i) = 1;
+}
+
+void ParticleData::set_descriptions(Options const& options) {
+  for (std::size_t k = 0; k < body_.size(); ++k) {
+    BodyOptions const& o = options.bodies[k];
+    bool const patch = o.description == Description::patch;
+    std::vector<Index> outside;
+    for (Index i = body_[k].first; i < body_[k].last; ++i) {
+      bool const inside = patch && (*o.eulerian_where)(set_.X[at(i)]) != 0;
+      fields_.phi.at(i) = o.description == Description::eulerian || inside ? 1 : 0;
+      if (patch && !inside) outside.push_back(i);
+    }
+    double const width = o.blend * body_[k].spacing;
+    if (patch && width != 0 && options.settings.equations.blends()) blend_patch(body_[k], width, outside);
+  }
+}
+
+/// Blends the kernel types over a width [m] at the border of a patch.
+void ParticleData::blend_patch(BodyConstants const& body, double width, std::vector<Index> const& outside) {
+  for (Index i = body.first; i < body.last; ++i) {
+    if (fields_.phi.at(i) == 0) continue;
+    double nearest = width;
+    for (Index const j : outside) {
+      auto const &p = set_.X[at(i)], &q = set_.X[at(j)];
+      nearest = std::min(nearest, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+    }
+    double const z = nearest / width;
+    fields_.phi.at(i) = z * z * (3 - 2 * z);
+  }
+}
+
+void ParticleData::set_reference() {
+  auto const set_point = [&](Index slot) {
+    std::size_t const i = at(slot);
+    for (int c = 0; c < 3; ++c) fields_.X.at(slot, c) = set_.X[i][at(c)];
+    fields_.volume.at(slot) = set_.volume[i];
+  };
+  for (std::size_t b = 0; b < body_.size(); ++b)
+    for (Index i = system_.part[b].first; i < system_.part[b].last; ++i) {
+      set_point(i);
+      fields_.mass.at(i) = body_[b].rho0 * set_.volume[at(i)];
+      bool const deforms = fields_.holds(fields_.F) && fields_.active.at(i) > 0;  // deleted particles keep theirs
+      for (int c = 0; c < 9 && deforms; ++c) fields_.F.at(i, c) = c % 4 == 0 ? 1 : 0;
+    }
+  set_point(0);                  // where cells of space begin
+  if (system_.contact.law == 3)  // data of both sides for the potential of the published law
+    for (Index i = 0; i < system_.particles; ++i) set_point(i);
+}
+
+void ParticleData::set_initial_state(Assembly const& assembly) {
+  for (std::size_t k = 0; k < body_.size(); ++k)
+    with_solid(body_[k].material, [&](auto const& law) {
+      for (Index slot = system_.part[k].first; slot < system_.part[k].last; ++slot) {
+        std::size_t const i = at(slot);
+        for (int c = 0; c < 3; ++c) {
+          double const moved = assembly.initial_displacement.empty() ? 0 : assembly.initial_displacement[i][at(c)];
+          fields_.x.at(slot, c) = position_[3 * at(slot) + at(c)] = set_.X[i][at(c)] + moved;
+          fields_.v.at(slot, c) = assembly.initial_velocity.empty() ? 0 : assembly.initial_velocity[i][at(c)];
+        }
+        fields_.rho.at(slot) = body_[k].rho0;
+        fields_.viscosity.at(slot) = 1;
+        if (fields_.holds(fields_.thickness)) fields_.thickness.at(slot) = 1;
+        fields_.temperature.at(slot) = law.initial_temperature();
+        fields_.energy.at(slot) = fields_.mass.at(slot) * law.initial_energy();
+      }
+    });
+}
+
+void ParticleData::update_kernel_types() {
+  for (Index i = 0; i < system_.particles; ++i) eulerian_[at(i)] = fields_.phi.at(i) > 0 ? 1 : 0;
+  system_.eulerians = static_cast<Index>(std::count(eulerian_.begin(), eulerian_.end(), std::uint8_t{1}));
+}
+
+bool ParticleData::has_surface_contact() const {
+  return std::any_of(contact_pairs_.begin(), contact_pairs_.end(), [](auto const& pair) { return pair.surfaces; });
+}
+
+bool ParticleData::has_lagrangian() const {
+  for (Index i = 0; i < system_.particles; ++i)
+    if (fields_.phi.at(i) < 1) return true;
+  return false;
+}
+
+bool ParticleData::has_deleted() const {
+  for (Index i = 0; i < system_.particles; ++i)
+    if (!(fields_.active.at(i) > 0)) return true;
+  return false;
+}
+
+double ParticleData::contact_mass(std::int64_t id) const {
+  auto const slot = static_cast<Index>(id);
+  return fields_.active.at(slot) > 0 ? body_of(slot).rho0 * set_.volume[at(id)] : 0;
+}
+
+std::size_t ParticleData::bytes() const {
+  return fields_.bytes() + sizeof(int) * body_of_.size() + sizeof(double) * position_.size() +
+         correction_.size() * sizeof(Correction);
+}
+
+}  // namespace piola::adaptle

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/exec/lazy_zero_array.hpp"
+#include "piola/formulations/adaptle/fields.hpp"
+#include "piola/formulations/adaptle/options.hpp"
+#include <vector>
+
+namespace piola::adaptle {
+
+/// The arrays of all particles of a run, by slot, and the view of the run for loops (System), to which its other parts
+/// add theirs. Arrays have the length of the whole run; pages are allocated on first write. Every rank writes phi and
+/// active of all particles; other fields only of local particles and ghosts.
+class ParticleData {
+ public:
+  /// Sets constants of bodies, contact and kernel types.
+  ParticleData(Assembly const& assembly, Options const& options);
+  ParticleData(ParticleData const&) = delete;
+  ParticleData& operator=(ParticleData const&) = delete;
+
+  /// Sets the reference data of the local particles.
+  void set_reference();
+  /// Sets the evolved fields of the local particles to the start of the run.
+  void set_initial_state(Assembly const& assembly);
+  /// Updates what loops read of the kernel types.
+  void update_kernel_types();
+
+  System& system() { return system_; }
+  System const& system() const { return system_; }
+  Fields& fields() { return fields_; }
+  Fields const& fields() const { return fields_; }
+  ParticleSet const& set() const { return set_; }
+  std::vector<BodyConstants> const& bodies() const { return body_; }
+  BodyConstants const& body_of(Index slot) const { return body_[static_cast<std::size_t>(system_.body_of[slot])]; }
+  FailureSlot const& failure() const { return failure_; }
+  /// Whether some pair of bodies has surface contact first.
+  bool has_surface_contact() const;
+  /// Whether some particle, of any rank, is not fully Eulerian.
+  bool has_lagrangian() const;
+  /// Whether some particle, of any rank, is deleted.
+  bool has_deleted() const;
+  /// Mass of a particle of any rank for contact [kg]; 0 for deleted particles, which do not take part in contact.
+  double contact_mass(std::int64_t id) const;
+  std::size_t bytes() const;
+
+  /// Calls f(field) for all fields of a checkpoint. Slots count if is_saved(). Deformation follows from
+  /// positions, except for deleted particles. The reference data of converted particles are not needed.
+  template <class Set, class F>
+  void each_saved(Set& fields, F const& f) const {
+    fields.each([&](auto& field) {
+      if (field.role() == Role::evolved && fields.holds(field)) f(field);
+    });
+    if (!fields.holds(fields.F) || !has_deleted()) return;
+    f(fields.F);
+    f(fields.F_rate);
+    f(fields.gap);
+  }
+  bool is_saved(Field const& field, Index slot) const {
+    return field.role() == Role::evolved || !(fields_.active.at(slot) > 0);
+  }
+
+ private:
+  void set_bodies(Assembly const& assembly, Options const& options);
+  void set_contact(Assembly const& assembly);
+  void allocate(Options const& options, bool rigid_shapes);
+  void set_descriptions(Options const& options);
+  void blend_patch(BodyConstants const& body, double width, std::vector<Index> const& outside);
+
+  ParticleSet const set_;  ///< copy-on-write, shared with the case
+  System system_;
+  std::vector<BodyConstants> body_;
+  std::vector<KernelContactPair> contact_pairs_;
+  std::vector<int> body_of_;
+  Fields fields_;
+  LazyZeroArray<Correction> correction_;
+  LazyZeroArray<double> position_;
+  std::vector<std::uint8_t> eulerian_;
+  std::vector<double> partial_;
+  FailureSlot failure_;
+};
+
+}  // namespace piola::adaptle
