@@ -41,6 +41,11 @@ struct Record {
   static constexpr int stride = (values + 7) / 8 * 8;
 };
 constexpr int record_stride(int dimension) { return dimension == 3 ? Record<3>::stride : Record<2>::stride; }
+/// Position of the stress in a record.
+constexpr int stress_in_record(int dimension) { return 2 * dimension + 1; }
+
+/// Number of slots for n particles or cells: a multiple of every lane count.
+constexpr Index aligned(Index n) { return (n + 15) / 16 * 16; }
 
 /// Prescribed values at a particle of the surface, or of a support, during one step. Rows of stress are orthonormal in
 /// the space of stresses with shear components times sqrt(2) (Mandel), in the order of SymMat.
