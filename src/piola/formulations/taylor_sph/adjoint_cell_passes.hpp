@@ -44,7 +44,7 @@ struct CornerForces {
   Law law;
   Constants k;
   CellTable cells;
-  CellMemory memory;
+  CellState state;
   double const* real;
   double* virtual_;
   double dt;
@@ -60,11 +60,11 @@ struct CornerForces {
       L = L + outer(corner.v[n], cell.g[n]);
       for (int c = 0; c < R::stress; ++c) s.c[c] = s.c[c] + corner.s[n].c[c];
     }
-    double const mean = (1 - k.memory) / cells.corners;
+    double const mean = (1 - k.stress_retention) / cells.corners;
     for (int c = 0; c < R::stress; ++c) {
       double own[lane_count];
       for (int l = 0; l < lane_count; ++l) own[l] = virtual_[static_cast<std::ptrdiff_t>(i + l) * R::stride + R::s + c];
-      s.c[c] = mean * s.c[c] + k.memory * load_lanes(own);
+      s.c[c] = mean * s.c[c] + k.stress_retention * load_lanes(own);
     }
     if (k.moving) s = turned(s, cayley(L, 0.5 * dt));
     auto const rate = elastic_rate<D>(law, k.lateral, L);
@@ -77,10 +77,10 @@ struct CornerForces {
         force[n][a] = cell.volume * sum;
       }
     if constexpr (D > 1)
-      if (!cells.simplices && k.hourglass_stiffness > 0) resist(corner, cell, i, force);
+      if (!cells.simplices && k.hourglass_stiffness > 0) add_hourglass_forces(corner, cell, i, force);
     for (int l = 0; l < lane_count; ++l) {
       virtual_[static_cast<std::ptrdiff_t>(i + l) * R::stride + R::volume] = lane(cell.volume, l);
-      double* const out = memory.force + static_cast<std::ptrdiff_t>(i + l) * cells.corners * D;
+      double* const out = state.force + static_cast<std::ptrdiff_t>(i + l) * cells.corners * D;
       for (int n = 0; n < cells.corners; ++n)
         for (int a = 0; a < D; ++a) out[n * D + a] = lane(force[n][a], l);
     }
@@ -102,8 +102,8 @@ struct CornerForces {
       for (int c = 0; c < R::stress; ++c) corner.s[n].c[c] = f[R::s + c];
     }
   }
-  PIOLA_FN void resist(CornerMotion<D> const& corner, CellGradients<D> const& cell, Index i,
-                       Vec<D, Lanes> (&force)[CornerPositions<D>::most]) const {
+  PIOLA_FN void add_hourglass_forces(CornerMotion<D> const& corner, CellGradients<D> const& cell, Index i,
+                                     Vec<D, Lanes> (&force)[CornerPositions<D>::most]) const {
     Lanes const stiffness = hourglass_stiffness<D>(k, cell);
     for (int p = 0; p < Patterns<D>::count; ++p) {
       Lanes gamma[CornerPositions<D>::most];
@@ -114,7 +114,7 @@ struct CornerForces {
       }
       for (int c = 0; c < D; ++c) {
         double own[lane_count];
-        for (int l = 0; l < lane_count; ++l) own[l] = memory.hourglass_of<D>(i + l, p)[c];
+        for (int l = 0; l < lane_count; ++l) own[l] = state.hourglass_of<D>(i + l, p)[c];
         q[c] = q[c] + load_lanes(own);
       }
       for (int n = 0; n < cells.corners; ++n) force[n] = force[n] + (stiffness * gamma[n]) * q;
@@ -122,14 +122,14 @@ struct CornerForces {
   }
 };
 
-/// Strains of the cells by the mean velocity of the step: the memory of stress of each, and V_J L_J for its corners.
+/// Strains of the cells by the mean velocity of the step: their own stress, and V_J L_J for its corners.
 /// Sums V L:D:L, per block.
 template <int D, class Law>
 struct StrainCells {
   Law law;
   Constants k;
   CellTable cells;
-  CellMemory memory;
+  CellState state;
   double const* real;
   View drift;
   double* virtual_;
@@ -158,17 +158,17 @@ struct StrainCells {
     load_local<D>(virtual_, i, own);
     SymMat<D, Lanes> t;
     for (int c = 0; c < R::stress; ++c) t.c[c] = own[R::s + c];
-    Lanes across = piola::load<Lanes>(memory.across + i);
+    Lanes across = piola::load<Lanes>(state.across + i);
     advance_stress<D>(law, k, L, dt, t, across);
     for (int l = 0; l < lane_count; ++l) {
       double* const record = virtual_ + static_cast<std::ptrdiff_t>(i + l) * R::stride;
       for (int c = 0; c < R::stress; ++c) record[R::s + c] = lane(t.c[c], l);
-      memory.across[i + l] = lane(across, l);
+      state.across[i + l] = lane(across, l);
       for (int c = 0; c < D * D; ++c)
-        memory.gradient[static_cast<std::ptrdiff_t>(i + l) * D * D + c] = lane(cell.volume * L.c[c], l);
+        state.gradient[static_cast<std::ptrdiff_t>(i + l) * D * D + c] = lane(cell.volume * L.c[c], l);
     }
     if constexpr (D > 1)
-      if (!cells.simplices && k.hourglass_stiffness > 0) follow_patterns(corner, cell, L, i);
+      if (!cells.simplices && k.hourglass_stiffness > 0) advance_patterns(corner, cell, L, i);
     return cell.volume * elastic_square<D>(law, k.lateral, L);
   }
   /// Positions at half time and mean velocities: x^h = x + dt/2 v with v = 2 <v> - present v.
@@ -189,20 +189,20 @@ struct StrainCells {
       }
     }
   }
-  PIOLA_FN void follow_patterns(CornerMotion<D> const& corner, CellGradients<D> const& cell, Mat<D, Lanes> const& L,
-                                Index i) const {
+  PIOLA_FN void advance_patterns(CornerMotion<D> const& corner, CellGradients<D> const& cell, Mat<D, Lanes> const& L,
+                                 Index i) const {
     Mat<D, Lanes> const turn = cayley(L, dt);
     for (int p = 0; p < Patterns<D>::count; ++p) {
       Vec<D, Lanes> q;
       for (int c = 0; c < D; ++c) {
         double own[lane_count];
-        for (int l = 0; l < lane_count; ++l) own[l] = memory.hourglass_of<D>(i + l, p)[c];
+        for (int l = 0; l < lane_count; ++l) own[l] = state.hourglass_of<D>(i + l, p)[c];
         q[c] = piola::load<Lanes>(own);
       }
       if (k.moving) q = turn * q;
       for (int n = 0; n < cells.corners; ++n) q = q + (dt * hourglass_vector<D>(corner, cell, p, n)) * corner.v[n];
       for (int l = 0; l < lane_count; ++l)
-        for (int c = 0; c < D; ++c) memory.hourglass_of<D>(i + l, p)[c] = lane(q[c], l);
+        for (int c = 0; c < D; ++c) state.hourglass_of<D>(i + l, p)[c] = lane(q[c], l);
     }
   }
 };
@@ -214,7 +214,7 @@ struct CellEnergies {
   Law law;
   Constants k;
   CellTable cells;
-  CellMemory memory;
+  CellState state;
   double const* real;
   double const* virtual_;
   Index last;
@@ -251,7 +251,7 @@ struct CellEnergies {
       if (cells.simplices) continue;
       for (int p = 0; p < Patterns<D>::count; ++p)
         for (int c = 0; c < D; ++c) {
-          double const q = memory.hourglass_of<D>(i + l, p)[c];
+          double const q = state.hourglass_of<D>(i + l, p)[c];
           sum[1] += 0.5 * lane(stiffness, l) * q * q;
         }
     }
@@ -261,7 +261,7 @@ struct CellEnergies {
     SymMat<3> s{};
     for (int a = 0; a < D; ++a)
       for (int b = a; b < D; ++b) s(a, b) = own[SymMat<D>::at(a, b)];
-    if (D == 2) s(2, 2) = memory.across[i];
+    if (D == 2) s(2, 2) = state.across[i];
     return law.energy_of_stress(s);
   }
 };

@@ -11,7 +11,7 @@ template <int D>
 struct AdvanceVelocities {
   Constants k;
   CellsAround around;
-  CellMemory memory;
+  CellState state;
   double* real;
   View mass, acceleration;
   WriteView drift;
@@ -33,14 +33,14 @@ struct AdvanceVelocities {
     double const m = mass.scalar<double>(i);
     double force[D] = {}, impulse[D];
     for (Index e = around.begin[i]; e < around.begin[i + 1]; ++e)
-      for (int c = 0; c < D; ++c) force[c] -= memory.force[static_cast<std::ptrdiff_t>(around.entry[e]) * D + c];
+      for (int c = 0; c < D; ++c) force[c] -= state.force[static_cast<std::ptrdiff_t>(around.entry[e]) * D + c];
     double before[D];
     for (int c = 0; c < D; ++c) {
       before[c] = v[c];
       impulse[c] = k.loaded ? dt * m * acceleration.scalar<double>(i, c) : 0;
       v[c] += (dt * force[c] + impulse[c]) / m;
     }
-    if (items != nullptr) hold(items[i - first], m, v, impulse);
+    if (items != nullptr) prescribe_velocity(items[i - first], m, v, impulse);
     double work = 0;
     for (int c = 0; c < D; ++c) {
       double const mean = 0.5 * (before[c] + v[c]);
@@ -49,7 +49,7 @@ struct AdvanceVelocities {
     }
     return work;
   }
-  PIOLA_FN static void hold(BoundaryItem const& item, double m, double* v, double* impulse) {
+  PIOLA_FN static void prescribe_velocity(BoundaryItem const& item, double m, double* v, double* impulse) {
     for (int h = 0; h < item.held; ++h) {
       double change = item.speed_after[h];
       for (int a = 0; a < D; ++a) change -= item.direction[h][a] * v[a];
@@ -68,7 +68,7 @@ struct AdvanceStresses {
   Law law;
   Constants k;
   CellsAround around;
-  CellMemory memory;
+  CellState state;
   int corners;
   double const* virtual_;
   double* real;
@@ -93,7 +93,7 @@ struct AdvanceStresses {
     for (Index e = around.begin[i]; e < around.begin[i + 1]; ++e) {
       auto const cell = static_cast<std::ptrdiff_t>(around.entry[e] / corners);
       volume += virtual_[cell * R::stride + R::volume];
-      for (int c = 0; c < D * D; ++c) L.c[c] += memory.gradient[cell * D * D + c];
+      for (int c = 0; c < D * D; ++c) L.c[c] += state.gradient[cell * D * D + c];
     }
     for (int c = 0; c < D * D; ++c) L.c[c] /= volume;
     double* const own = real + static_cast<std::ptrdiff_t>(i) * R::stride;

@@ -10,8 +10,6 @@
 namespace piola::taylor_sph {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 /// Particles start at the initial displacement, free of stress and with the given density: masses follow the cells.
 void scale_masses(Particles const& particles, Cells const& cells, std::vector<double>& mass) {
   std::vector<double> before(mass.size(), 0), after(mass.size(), 0);
@@ -58,7 +56,7 @@ Constants constants_of(MaterialParameters const& material, Options const& option
   k.kernel = options.kernel;
   k.moving = options.moving;
   k.adjoint = options.adjoint;
-  k.memory = options.adjoint ? options.memory : 0;
+  k.stress_retention = options.adjoint ? options.stress_retention : 0;
   k.hourglass_stiffness = options.hourglass_stiffness;
   return k;
 }

@@ -38,7 +38,6 @@ class Boundary {
   int sides(Index particle) const { return static_cast<int>(sides_[static_cast<std::size_t>(particle)].size()); }
   std::vector<Index> const& particles() const { return particles_; }
   BoundaryItem* items() { return items_.data(); }
-
   BoundaryItem const& item(std::size_t k) const { return items_[k]; }  ///< of particles()[k]
   /// Power of tractions and supports: sum v.(sigma.a) over the surface [W], with the last normals.
   double power() const;

@@ -14,8 +14,6 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 /// A lattice is triangulated with alternating diagonals: all triangulations of its squares are Delaunay's.
 Cells first_cells(ParticleSet const& set, Particles const& particles, Options const& options, bool cracked,
                   double largest_radius) {

@@ -65,7 +65,8 @@ void CellFields::allocate(Index slots) {
 void CellFields::set_views(BodyState& state) {
   state.virtual_ = records_.data();
   if (adjoint_)
-    state.memory = {out_of_plane.ref().data, force.ref().data, gradient.ref().data, hourglass.ref().data, patterns_};
+    state.cell_state = {out_of_plane.ref().data, force.ref().data, gradient.ref().data, hourglass.ref().data,
+                        patterns_};
 }
 
 std::string checkpoint_name(Field const& field) {

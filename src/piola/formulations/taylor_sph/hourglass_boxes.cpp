@@ -10,7 +10,6 @@ HourglassBoxes::HourglassBoxes(ParticleSet const& set, Body const& body, Options
 
 void HourglassBoxes::make_tables(Particles const& particles, int lanes) {
   if (empty()) return;
-  auto const at = [](Index i) { return static_cast<std::size_t>(i); };
   int const D = particles.dimension();
   auto const corners = static_cast<std::size_t>(boxes_.corners);
   Index const boxes = aligned(boxes_.count());

@@ -10,8 +10,6 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 /// A place with the side of a crack's face that it is on, if it is on one.
 struct Place {
   Point X;

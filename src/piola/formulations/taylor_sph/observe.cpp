@@ -28,7 +28,7 @@ void observe(TaylorBody const& body, ParticleSet const& set, DiagnosticsSum& o) 
   std::vector<double> pressure;
   auto const& k = body.state().k;
   Particles const& particles = body.particles();
-  double const of_particles = k.adjoint ? 1 - k.memory : 1;
+  double const of_particles = k.adjoint ? 1 - k.stress_retention : 1;
   o.begin_body(body.body().name);
   for (Index i = 0; i < particles.count(); ++i) {
     SymMat<3> const s = particles.stress(i);
@@ -39,7 +39,7 @@ void observe(TaylorBody const& body, ParticleSet const& set, DiagnosticsSum& o) 
     o.add_strain_energy(of_particles * V * J * stored_energy(body, s));
   }
   CellEnergy const cells = body.cell_energy();
-  o.add_strain_energy(k.memory * cells.stored + cells.hourglass);
+  o.add_strain_energy(k.stress_retention * cells.stored + cells.hourglass);
   o.totals.external_work += body.external_work();
   o.totals.damping_loss += body.damping_loss();
   o.add_oscillation(set, body.body(), pressure);

@@ -10,6 +10,9 @@
 
 namespace piola::taylor_sph {
 
+/// An index of a vector.
+inline std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
 /// The real particles of one body, numbered in Id order from its first particle on: their reference data, their fields,
 /// and the slots of these. Vectors have three components; those that do not exist are zero.
 class Particles {
@@ -60,8 +63,6 @@ class Particles {
   std::size_t bytes() const;
 
  private:
-  static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
   Body body_;
   bool moving_;
   Points X_, start_;

@@ -26,7 +26,7 @@ struct Constants {
   bool moving;                     ///< updated Lagrangian; false: initial configuration, geometrically linear
   bool loaded;                     ///< there are accelerations
   bool adjoint = false;            ///< the adjoint exchange; else estimates by kernel sums
-  double memory = 0;               ///< adjoint: weight of the cells' own stress
+  double stress_retention = 0;     ///< adjoint: weight of the cells' own stress
   double hourglass_stiffness = 0;  ///< adjoint, boxes: of their patterns, as a fraction of D_11
 };
 
@@ -79,7 +79,7 @@ struct CellsAround {
 };
 
 /// State and output of cells under the adjoint exchange; a cell's own stress is in its record.
-struct CellMemory {
+struct CellState {
   double* across = nullptr;     ///< out-of-plane stress [Pa]
   double* force = nullptr;      ///< on each corner [N], D per corner
   double* gradient = nullptr;   ///< volume times velocity gradient, D * D per cell
@@ -133,7 +133,7 @@ struct BodyState {
   CellTable cells;
   HourglassTable hourglass;
   CellsAround around;
-  CellMemory memory;
+  CellState cell_state;
   BoundaryItem* items = nullptr;  ///< per slot of `boundary`
   double* partial = nullptr;      ///< room for partial sums of reductions, 16 per block
   FailureSlot* failure = nullptr;
