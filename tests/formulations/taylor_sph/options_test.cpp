@@ -35,7 +35,7 @@ TEST(TaylorOptions, AreAMovingBodyOfSimplicesWithTheAdjointExchangeByDefault) {
     EXPECT_TRUE(o.adjoint);
     EXPECT_FALSE(o.lattice_cells);
     EXPECT_FALSE(o.conserve) << "momenta are kept anyway";
-    EXPECT_EQ(o.memory, 0.2);
+    EXPECT_EQ(o.stress_retention, 0.2);
     EXPECT_EQ(o.hourglass, 0);
     EXPECT_EQ(o.cfl, 0.9);
     Options const fixed = read_options({"taylor_sph", {}, {{"configuration", "fixed"}}}, D, std::nan(""), true);
@@ -44,7 +44,7 @@ TEST(TaylorOptions, AreAMovingBodyOfSimplicesWithTheAdjointExchangeByDefault) {
   Options const boxes = read_options(
       {"taylor_sph", {{"stress_retention", 0.5}}, {{"virtual_particles", "lattice_cells"}}}, 2, std::nan(""), true);
   EXPECT_EQ(boxes.hourglass_stiffness, 0.05);
-  EXPECT_EQ(boxes.memory, 0.5);
+  EXPECT_EQ(boxes.stress_retention, 0.5);
 }
 
 TEST(TaylorOptions, OfEstimatesAreAMovingBodyOfLatticeBoxesByDefault) {

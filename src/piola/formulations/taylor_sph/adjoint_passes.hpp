@@ -1,174 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/taylor_sph/cell_passes.hpp"
-#include "piola/formulations/taylor_sph/filter_passes.hpp"
-#include "piola/formulations/taylor_sph/rates.hpp"
+#include "piola/formulations/taylor_sph/adjoint_cell_passes.hpp"
 
-/// The adjoint exchange: forces leave a cell by the transpose of the gradient that strains it, so that energy and
-/// momenta balance on any set of particles. A cell's virtual particle is its single point; gradients are those of its
-/// corners instead of kernel sums. Theory, with the energy balance: docs/theory/taylor-sph.md.
+/// The adjoint exchange on the real particles; see adjoint_cell_passes.hpp.
 namespace piola::taylor_sph::inline PIOLA_BACKEND {
-
-/// The rotation of a spin (L - L^T)/2 over dt by Cayley's formula, (1 - W/2)^-1 (1 + W/2): orthogonal to round-off.
-template <int D, class T>
-PIOLA_FN Mat<D, T> cayley(Mat<D, T> const& L, double dt) {
-  Mat<D, T> less = identity<D, T>(), more = identity<D, T>();
-  for (int i = 0; i < D; ++i)
-    for (int j = 0; j < D; ++j) {
-      T const half = (0.25 * dt) * (L(i, j) - L(j, i));
-      less(i, j) = less(i, j) - half;
-      more(i, j) = more(i, j) + half;
-    }
-  return inverse(less) * more;
-}
-
-/// R s R^T.
-template <int D, class T>
-PIOLA_FN SymMat<D, T> turned(SymMat<D, T> const& s, Mat<D, T> const& R) {
-  Mat<D, T> const Rs = R * s;
-  SymMat<D, T> r;
-  for (int i = 0; i < D; ++i)
-    for (int j = i; j < D; ++j) {
-      r(i, j) = Rs(i, 0) * R(j, 0);
-      for (int k = 1; k < D; ++k) r(i, j) = r(i, j) + Rs(i, k) * R(j, k);
-    }
-  return r;
-}
-
-/// Jaumann rate over a step: half the strain, the rotation, the other half.
-template <int D, class Law, class T>
-PIOLA_FN void advance_stress(Law const& law, Constants const& k, Mat<D, T> const& L, double dt, SymMat<D, T>& s,
-                             T& across) {
-  PlaneStress<D, T> const rate = elastic_rate<D>(law, k.lateral, L);
-  double const first = k.moving ? 0.5 * dt : dt;
-  for (int c = 0; c < SymMat<D>::size; ++c) s.c[c] = s.c[c] + first * rate.in_plane.c[c];
-  across = across + dt * rate.across;
-  if (!k.moving) return;
-  s = turned(s, cayley(L, dt));
-  for (int c = 0; c < SymMat<D>::size; ++c) s.c[c] = s.c[c] + (0.5 * dt) * rate.in_plane.c[c];
-}
-
-/// L : D : L, twice the power density of a velocity gradient on its own stress per time [Pa/s2].
-template <int D, class Law, class T>
-PIOLA_FN T elastic_square(Law const& law, double lateral, Mat<D, T> const& L) {
-  SymMat<3, T> const d = rate_of_deformation<D>(L, lateral), rate = law.stress_rate(d);
-  T sum = d.c[0] * rate.c[0];
-  for (int c = 1; c < 6; ++c) sum = sum + (c < 3 ? 1.0 : 2.0) * (d.c[c] * rate.c[c]);
-  return sum;
-}
-
-/// The corners of a cell at half time, for both cell passes.
-template <int D>
-struct CornerMotion {
-  CornerPositions<D> place;
-  Vec<D, Lanes> v[CornerPositions<D>::most];
-  SymMat<D, Lanes> s[CornerPositions<D>::most];
-};
-
-/// Elastic resistance of boxes to the patterns that their middle does not see (Flanagan and Belytschko 1981), of boxes
-/// only:  gamma_k = h_k - sum_j h_j x_j . g_k,   stiffness 0.05 D_11 V sum |g|^2 / 8.
-template <int D>
-PIOLA_FN Lanes hourglass_vector(CornerMotion<D> const& corner, CellGradients<D> const& cell, int pattern, int k) {
-  Lanes sum(Patterns<D>::sign(pattern, k));
-  for (int b = 0; b < D; ++b) {
-    Lanes moment(0.0);
-    for (int j = 0; j < Patterns<D>::corners; ++j)
-      moment = moment + Patterns<D>::sign(pattern, j) * corner.place.x[j][b];
-    sum = sum - moment * cell.g[k][b];
-  }
-  return sum;
-}
-template <int D>
-PIOLA_FN Lanes hourglass_stiffness(Constants const& k, CellGradients<D> const& cell) {
-  Lanes sum(0.0);
-  for (int c = 0; c < CornerPositions<D>::most; ++c) sum = sum + dot(cell.g[c], cell.g[c]);
-  return (k.hourglass_stiffness * k.modulus / 8) * (cell.volume * sum);
-}
-
-/// Real to virtual: the stress of half time of each cell, and the forces that it puts on its corners,
-///   s_J = turned_half[ (1 - b) <s>_J + b t_J ] + dt/2 D:d_J(v),     force_Jk = V_J s_J . g_Jk
-template <int D, class Law>
-struct CornerForces {
-  Law law;
-  Constants k;
-  CellTable cells;
-  CellMemory memory;
-  double const* real;
-  double* virtual_;
-  double dt;
-
-  PIOLA_FN void operator()(Index i) const {
-    using R = Record<D>;
-    CornerMotion<D> corner;
-    load(i, corner);
-    auto const cell = cell_gradients<D>(corner.place, cells.simplices);
-    Mat<D, Lanes> L{};
-    SymMat<D, Lanes> s{};
-    for (int n = 0; n < cells.corners; ++n) {
-      L = L + outer(corner.v[n], cell.g[n]);
-      for (int c = 0; c < R::stress; ++c) s.c[c] = s.c[c] + corner.s[n].c[c];
-    }
-    double const mean = (1 - k.memory) / cells.corners;
-    for (int c = 0; c < R::stress; ++c) {
-      double own[lane_count];
-      for (int l = 0; l < lane_count; ++l) own[l] = virtual_[static_cast<std::ptrdiff_t>(i + l) * R::stride + R::s + c];
-      s.c[c] = mean * s.c[c] + k.memory * load_lanes(own);
-    }
-    if (k.moving) s = turned(s, cayley(L, 0.5 * dt));
-    auto const rate = elastic_rate<D>(law, k.lateral, L);
-    for (int c = 0; c < R::stress; ++c) s.c[c] = s.c[c] + (0.5 * dt) * rate.in_plane.c[c];
-    Vec<D, Lanes> force[CornerPositions<D>::most];
-    for (int n = 0; n < cells.corners; ++n)
-      for (int a = 0; a < D; ++a) {
-        Lanes sum = s(a, 0) * cell.g[n][0];
-        for (int b = 1; b < D; ++b) sum = sum + s(a, b) * cell.g[n][b];
-        force[n][a] = cell.volume * sum;
-      }
-    if constexpr (D > 1)
-      if (!cells.simplices && k.hourglass_stiffness > 0) resist(corner, cell, i, force);
-    for (int l = 0; l < lane_count; ++l) {
-      virtual_[static_cast<std::ptrdiff_t>(i + l) * R::stride + R::volume] = lane(cell.volume, l);
-      double* const out = memory.force + static_cast<std::ptrdiff_t>(i + l) * cells.corners * D;
-      for (int n = 0; n < cells.corners; ++n)
-        for (int a = 0; a < D; ++a) out[n * D + a] = lane(force[n][a], l);
-    }
-  }
-
- private:
-  PIOLA_FN static Lanes load_lanes(double const (&values)[lane_count]) { return piola::load<Lanes>(values); }
-  PIOLA_FN void load(Index i, CornerMotion<D>& corner) const {
-    using R = Record<D>;
-    corner.place.count = cells.corners;
-    for (int n = 0; n < cells.corners; ++n) {
-      Lanes f[R::values];
-      load_records(real, R::stride,
-                   cells.corner + (static_cast<std::ptrdiff_t>(i / lane_count) * cells.corners + n) * lane_count, f);
-      for (int c = 0; c < D; ++c) {
-        corner.v[n][c] = f[R::v + c];
-        corner.place.x[n][c] = k.moving ? f[R::x + c] + (0.5 * dt) * f[R::v + c] : f[R::x + c];
-      }
-      for (int c = 0; c < R::stress; ++c) corner.s[n].c[c] = f[R::s + c];
-    }
-  }
-  PIOLA_FN void resist(CornerMotion<D> const& corner, CellGradients<D> const& cell, Index i,
-                       Vec<D, Lanes> (&force)[CornerPositions<D>::most]) const {
-    Lanes const stiffness = hourglass_stiffness<D>(k, cell);
-    for (int p = 0; p < Patterns<D>::count; ++p) {
-      Lanes gamma[CornerPositions<D>::most];
-      Vec<D, Lanes> q{};
-      for (int n = 0; n < cells.corners; ++n) {
-        gamma[n] = hourglass_vector<D>(corner, cell, p, n);
-        q = q + (0.5 * dt * gamma[n]) * corner.v[n];
-      }
-      for (int c = 0; c < D; ++c) {
-        double own[lane_count];
-        for (int l = 0; l < lane_count; ++l) own[l] = memory.hourglass_of<D>(i + l, p)[c];
-        q[c] = q[c] + load_lanes(own);
-      }
-      for (int n = 0; n < cells.corners; ++n) force[n] = force[n] + (stiffness * gamma[n]) * q;
-    }
-  }
-};
 
 /// Virtual to real, minus the adjoint of the gradient:  m dv = -dt sum_J force_Ji + dt f_i, then prescribed speeds.
 /// `drift` becomes the mean velocity of the step. Sums the external work, per block.
@@ -176,7 +11,7 @@ template <int D>
 struct AdvanceVelocities {
   Constants k;
   CellsAround around;
-  CellMemory memory;
+  CellState state;
   double* real;
   View mass, acceleration;
   WriteView drift;
@@ -198,14 +33,14 @@ struct AdvanceVelocities {
     double const m = mass.scalar<double>(i);
     double force[D] = {}, impulse[D];
     for (Index e = around.begin[i]; e < around.begin[i + 1]; ++e)
-      for (int c = 0; c < D; ++c) force[c] -= memory.force[static_cast<std::ptrdiff_t>(around.entry[e]) * D + c];
+      for (int c = 0; c < D; ++c) force[c] -= state.force[static_cast<std::ptrdiff_t>(around.entry[e]) * D + c];
     double before[D];
     for (int c = 0; c < D; ++c) {
       before[c] = v[c];
       impulse[c] = k.loaded ? dt * m * acceleration.scalar<double>(i, c) : 0;
       v[c] += (dt * force[c] + impulse[c]) / m;
     }
-    if (items != nullptr) hold(items[i - first], m, v, impulse);
+    if (items != nullptr) prescribe_velocity(items[i - first], m, v, impulse);
     double work = 0;
     for (int c = 0; c < D; ++c) {
       double const mean = 0.5 * (before[c] + v[c]);
@@ -214,7 +49,7 @@ struct AdvanceVelocities {
     }
     return work;
   }
-  PIOLA_FN static void hold(BoundaryItem const& item, double m, double* v, double* impulse) {
+  PIOLA_FN static void prescribe_velocity(BoundaryItem const& item, double m, double* v, double* impulse) {
     for (int h = 0; h < item.held; ++h) {
       double change = item.speed_after[h];
       for (int a = 0; a < D; ++a) change -= item.direction[h][a] * v[a];
@@ -226,91 +61,6 @@ struct AdvanceVelocities {
   }
 };
 
-/// Strains of the cells by the mean velocity of the step: the memory of stress of each, and V_J L_J for its corners.
-/// Sums V L:D:L, per block.
-template <int D, class Law>
-struct StrainCells {
-  Law law;
-  Constants k;
-  CellTable cells;
-  CellMemory memory;
-  double const* real;
-  View drift;
-  double* virtual_;
-  Index last;  ///< number of cells
-  double* partial;
-  double dt;
-
-  PIOLA_FN void operator()(Range b, Index block) const {
-    double sum = 0;
-    for (Index i = b.first; i < b.last; i += lane_count) {
-      Lanes const square = strain(i);
-      for (int l = 0; l < lane_count && i + l < last; ++l) sum += lane(square, l);
-    }
-    partial[block] = sum;
-  }
-
- private:
-  PIOLA_FN Lanes strain(Index i) const {
-    using R = Record<D>;
-    CornerMotion<D> corner;
-    load(i, corner);
-    auto const cell = cell_gradients<D>(corner.place, cells.simplices);
-    Mat<D, Lanes> L{};
-    for (int n = 0; n < cells.corners; ++n) L = L + outer(corner.v[n], cell.g[n]);
-    Lanes own[R::values];
-    load_local<D>(virtual_, i, own);
-    SymMat<D, Lanes> t;
-    for (int c = 0; c < R::stress; ++c) t.c[c] = own[R::s + c];
-    Lanes across = piola::load<Lanes>(memory.across + i);
-    advance_stress<D>(law, k, L, dt, t, across);
-    for (int l = 0; l < lane_count; ++l) {
-      double* const record = virtual_ + static_cast<std::ptrdiff_t>(i + l) * R::stride;
-      for (int c = 0; c < R::stress; ++c) record[R::s + c] = lane(t.c[c], l);
-      memory.across[i + l] = lane(across, l);
-      for (int c = 0; c < D * D; ++c)
-        memory.gradient[static_cast<std::ptrdiff_t>(i + l) * D * D + c] = lane(cell.volume * L.c[c], l);
-    }
-    if constexpr (D > 1)
-      if (!cells.simplices && k.hourglass_stiffness > 0) follow_patterns(corner, cell, L, i);
-    return cell.volume * elastic_square<D>(law, k.lateral, L);
-  }
-  /// Positions at half time and mean velocities: x^h = x + dt/2 v with v = 2 <v> - present v.
-  PIOLA_FN void load(Index i, CornerMotion<D>& corner) const {
-    using R = Record<D>;
-    corner.place.count = cells.corners;
-    for (int n = 0; n < cells.corners; ++n) {
-      Index const* const at =
-          cells.corner + (static_cast<std::ptrdiff_t>(i / lane_count) * cells.corners + n) * lane_count;
-      Lanes f[R::v + D];
-      load_records(real, R::stride, at, f);
-      for (int c = 0; c < D; ++c) {
-        double mean[lane_count];
-        for (int l = 0; l < lane_count; ++l) mean[l] = drift.scalar<double>(at[l], c);
-        corner.v[n][c] = piola::load<Lanes>(mean);
-        Lanes const before = 2.0 * corner.v[n][c] - f[R::v + c];
-        corner.place.x[n][c] = k.moving ? f[R::x + c] + (0.5 * dt) * before : f[R::x + c];
-      }
-    }
-  }
-  PIOLA_FN void follow_patterns(CornerMotion<D> const& corner, CellGradients<D> const& cell, Mat<D, Lanes> const& L,
-                                Index i) const {
-    Mat<D, Lanes> const turn = cayley(L, dt);
-    for (int p = 0; p < Patterns<D>::count; ++p) {
-      Vec<D, Lanes> q;
-      for (int c = 0; c < D; ++c) {
-        double own[lane_count];
-        for (int l = 0; l < lane_count; ++l) own[l] = memory.hourglass_of<D>(i + l, p)[c];
-        q[c] = piola::load<Lanes>(own);
-      }
-      if (k.moving) q = turn * q;
-      for (int n = 0; n < cells.corners; ++n) q = q + (dt * hourglass_vector<D>(corner, cell, p, n)) * corner.v[n];
-      for (int l = 0; l < lane_count; ++l)
-        for (int c = 0; c < D; ++c) memory.hourglass_of<D>(i + l, p)[c] = lane(q[c], l);
-    }
-  }
-};
-
 /// Stresses and positions of the real particles: L_i = sum_J V_J L_J / (n W_i), W_i = sum_J V_J / n, the adjoint of the
 /// mean over corners and exact for linear velocities. Sums W L:D:L, per block.
 template <int D, class Law>
@@ -318,7 +68,7 @@ struct AdvanceStresses {
   Law law;
   Constants k;
   CellsAround around;
-  CellMemory memory;
+  CellState state;
   int corners;
   double const* virtual_;
   double* real;
@@ -343,7 +93,7 @@ struct AdvanceStresses {
     for (Index e = around.begin[i]; e < around.begin[i + 1]; ++e) {
       auto const cell = static_cast<std::ptrdiff_t>(around.entry[e] / corners);
       volume += virtual_[cell * R::stride + R::volume];
-      for (int c = 0; c < D * D; ++c) L.c[c] += memory.gradient[cell * D * D + c];
+      for (int c = 0; c < D * D; ++c) L.c[c] += state.gradient[cell * D * D + c];
     }
     for (int c = 0; c < D * D; ++c) L.c[c] /= volume;
     double* const own = real + static_cast<std::ptrdiff_t>(i) * R::stride;
@@ -390,65 +140,6 @@ struct GatherVolumes {
       real[static_cast<std::ptrdiff_t>(i) * R::stride + R::volume] =
           volume / corners * k.kernel_volume * k.rho0 / mass.scalar<double>(i);
     }
-  }
-};
-
-/// Energies of the cells, and the correction for the staggered times of velocity and stress; per block: V t:D^-1:t / 2,
-/// hourglass energy, V L:D:L of the present velocities.
-template <int D, class Law>
-struct CellEnergies {
-  Law law;
-  Constants k;
-  CellTable cells;
-  CellMemory memory;
-  double const* real;
-  double const* virtual_;
-  Index last;
-  double* partial;
-  static constexpr int results = 3;
-
-  PIOLA_FN void operator()(Range b, Index block) const {
-    double sum[results] = {};
-    for (Index i = b.first; i < b.last; i += lane_count) add(i, sum);
-    for (int c = 0; c < results; ++c) partial[results * block + c] = sum[c];
-  }
-
- private:
-  PIOLA_FN void add(Index i, double (&sum)[results]) const {
-    using R = Record<D>;
-    CornerPositions<D> const corner = load_corners<D>(cells, real, i);
-    auto const cell = cell_gradients<D>(corner, cells.simplices);
-    Mat<D, Lanes> L{};
-    for (int n = 0; n < cells.corners; ++n) {
-      Lanes f[R::v + D];
-      load_records(real, R::stride,
-                   cells.corner + (static_cast<std::ptrdiff_t>(i / lane_count) * cells.corners + n) * lane_count, f);
-      Vec<D, Lanes> v;
-      for (int c = 0; c < D; ++c) v[c] = f[R::v + c];
-      L = L + outer(v, cell.g[n]);
-    }
-    Lanes const square = cell.volume * elastic_square<D>(law, k.lateral, L);
-    Lanes stiffness(0.0);
-    if constexpr (D > 1)
-      if (!cells.simplices) stiffness = hourglass_stiffness<D>(k, cell);
-    for (int l = 0; l < lane_count && i + l < last; ++l) {
-      sum[0] += lane(cell.volume, l) * stored(i + l);
-      sum[2] += lane(square, l);
-      if (cells.simplices) continue;
-      for (int p = 0; p < Patterns<D>::count; ++p)
-        for (int c = 0; c < D; ++c) {
-          double const q = memory.hourglass_of<D>(i + l, p)[c];
-          sum[1] += 0.5 * lane(stiffness, l) * q * q;
-        }
-    }
-  }
-  PIOLA_FN double stored(Index i) const {
-    double const* const own = virtual_ + static_cast<std::ptrdiff_t>(i) * Record<D>::stride + Record<D>::s;
-    SymMat<3> s{};
-    for (int a = 0; a < D; ++a)
-      for (int b = a; b < D; ++b) s(a, b) = own[SymMat<D>::at(a, b)];
-    if (D == 2) s(2, 2) = memory.across[i];
-    return law.energy_of_stress(s);
   }
 };
 

@@ -74,53 +74,54 @@ std::vector<Point> free_directions(std::vector<Point> held, int D) {
 
 }  // namespace
 
-Boundary::Boundary(Assembly const& assembly, std::size_t body)
-    : D_(assembly.particles.dimension), first_(assembly.particles.bodies[body].first) {
+Boundary::Boundary(Assembly const& assembly, std::size_t body, Particles const& real)
+    : D_(real.dimension()), real_(real), x_(real.X()) {
   PIOLA_EXPECTS(body < assembly.particles.bodies.size());
-  auto const& set = assembly.particles;
-  Body const& own = set.bodies[body];
-  auto const n = static_cast<std::size_t>(own.last - own.first);
-  X_.assign(set.X.begin() + own.first, set.X.begin() + own.last);
+  Body const& own = real.body();
+  std::size_t const n = x_.size();
   held_.resize(n);
   loaded_.resize(n);
   tip_.resize(n);
-  auto const of_body = [&](std::int64_t id) { return id >= own.first && id < own.last; };
-  for (auto const& crack : set.cracks)
+  for (auto const& crack : assembly.particles.cracks)
     for (std::size_t k = 0; k < n && crack.body == static_cast<int>(body); ++k) {
-      auto const at = [&](Point const& end) { return length({X_[k][0] - end[0], X_[k][1] - end[1], 0}); };
+      auto const at = [&](Point const& end) { return length({x_[k][0] - end[0], x_[k][1] - end[1], 0}); };
       double const reach = 1e-6 * std::min(own.spacing[0], own.spacing[1]);
       tip_[k] = tip_[k] || (crack.tip_at_from && at(crack.from) < reach) || (crack.tip_at_to && at(crack.to) < reach);
     }
   for (auto const& support : assembly.supports) {
-    for (auto const id : support.particles)
-      if (of_body(id))
-        for (auto const& d : directions_of(support, D_))
-          held_[static_cast<std::size_t>(id - first_)].push_back({supports_.size(), d});
+    for (auto const id : support.particles) {
+      if (id < own.first || id >= own.last) continue;
+      for (auto const& d : directions_of(support, D_)) {
+        held_[static_cast<std::size_t>(id - own.first)].push_back({supports_.size(), d});
+        has_supports_ = true;
+      }
+    }
     supports_.push_back(support);
     supports_.back().particles.clear();
   }
+  read_loads(assembly);
+}
+
+void Boundary::read_loads(Assembly const& assembly) {
+  std::int64_t const first = real_.body().first, last = real_.body().last;
   for (std::size_t number = 0; number < assembly.loads.size(); ++number) {
     Load const& load = assembly.loads[number];
-    if (!load.on_face()) {
-      Load mine = load;
-      mine.particles.clear();
-      mine.factor.clear();
-      for (std::size_t k = 0; k < load.particles.size(); ++k) {
-        if (!of_body(load.particles[k])) continue;
-        mine.particles.push_back(load.particles[k] - first_);
-        mine.factor.push_back(load.factor[k]);
+    Load mine = load;
+    mine.particles.clear();
+    if (!load.on_face()) mine.factor.clear();
+    for (std::size_t k = 0; k < load.particles.size(); ++k) {
+      if (load.particles[k] < first || load.particles[k] >= last) continue;
+      std::int64_t const particle = load.particles[k] - first;
+      if (load.on_face()) {
+        loaded_[static_cast<std::size_t>(particle)].push_back({tractions_.size(), load.normal_of(k)});
+        continue;
       }
-      if (mine.particles.empty()) continue;
-      accelerations_.push_back(mine);
-      acceleration_number_.push_back(number);
-      continue;
+      mine.particles.push_back(particle);
+      mine.factor.push_back(load.factor[k]);
     }
-    for (std::size_t k = 0; k < load.particles.size(); ++k)
-      if (of_body(load.particles[k]))
-        loaded_[static_cast<std::size_t>(load.particles[k] - first_)].push_back({tractions_.size(), load.normal_of(k)});
-    tractions_.push_back(load);
-    traction_number_.push_back(number);
-    tractions_.back().particles.clear();
+    if (!load.on_face() && mine.particles.empty()) continue;
+    (load.on_face() ? tractions_ : accelerations_).push_back(mine);
+    (load.on_face() ? traction_number_ : acceleration_number_).push_back(number);
   }
 }
 
@@ -160,17 +161,17 @@ void Boundary::add_to_side(Index particle, Index facet, Point const& area) {
   for (std::size_t c = 0; c < 3; ++c) best->area[c] += area[c];
 }
 
-void Boundary::sort_facets(Surface const& surface, Points const& x) {
+void Boundary::sort_facets(Surface const& surface) {
   surface_ = surface;
-  sides_.assign(X_.size(), {});
+  sides_.assign(x_.size(), {});
   for (Index f = 0; f < surface_.count(); ++f)
     for (int k = 0; k < D_; ++k) {
       Index const particle = surface_.corner[static_cast<std::size_t>(f) * D_ + k];
-      if (!tip_[static_cast<std::size_t>(particle)]) add_to_side(particle, f, facet_area(f, x));
+      if (!tip_[static_cast<std::size_t>(particle)]) add_to_side(particle, f, facet_area(f, real_.X()));
     }
 }
 
-void Boundary::turn(Points const& x) {
+void Boundary::update_normals(Points const& x) {
   for (Index const particle : particles_)
     for (auto& side : sides_[static_cast<std::size_t>(particle)]) {
       side.area = {};
@@ -193,32 +194,34 @@ void Boundary::attach_tractions() {
           closest = dot(side.reference_normal, traction.normal);
           best = &side;
         }
+      Point const& X = real_.X()[k];
       if (best == nullptr)
         throw InputError(fmt::format(
             "load: the particle at ({:.4g}, {:.4g}, {:.4g}) m carries a traction but is not on the surface - "
             "load particles of a face, and give the box placement = \"on_boundary\"",
-            X_[k][0], X_[k][1], X_[k][2]));
+            X[0], X[1], X[2]));
       best->tractions.push_back(traction.load);
     }
 }
 
 std::vector<Index> const& Boundary::arrange(Surface const& surface, Points const& x) {
-  sort_facets(surface, X_);
+  sort_facets(surface);
   particles_.clear();
-  for (std::size_t k = 0; k < X_.size(); ++k)
+  for (std::size_t k = 0; k < x_.size(); ++k)
     if (!sides_[k].empty() || !held_[k].empty()) particles_.push_back(static_cast<Index>(k));
-  turn(X_);
+  update_normals(real_.X());
   for (auto& sides : sides_)
     for (auto& side : sides) side.reference_normal = side.normal;
   attach_tractions();
-  turn(x);
+  update_normals(x);
   items_.assign(particles_.size(), {});
   return particles_;
 }
 
 /// A pressure that does not follow keeps the normal of the start.
-Point Boundary::traction_of_load(std::size_t traction, Side const& side, Point const& X, double time) const {
+Point Boundary::traction_of_load(std::size_t traction, Side const& side, Index particle, double time) const {
   Point t{};
+  Point const& X = real_.X(particle);
   Load const& load = tractions_[traction];
   if (has_ended(load.until, time)) return t;
   if (load.pressure) return acceleration_by(load.value, load.follows ? side.normal : side.reference_normal, 1, X, time);
@@ -226,22 +229,23 @@ Point Boundary::traction_of_load(std::size_t traction, Side const& side, Point c
   return t;
 }
 
-Point Boundary::traction_on(Side const& side, Point const& X, double time) const {
+Point Boundary::traction_on(Side const& side, Index particle, double time) const {
   Point t{};
   for (std::size_t const l : side.tractions) {
-    Point const part = traction_of_load(l, side, X, time);
+    Point const part = traction_of_load(l, side, particle, time);
     for (std::size_t c = 0; c < 3; ++c) t[c] += part[c];
   }
   return t;
 }
 
-void Boundary::hold(Index particle, double time, double dt, Point const& velocity, BoundaryItem& item) const {
+void Boundary::prescribe_velocity(Index particle, double time, double dt, BoundaryItem& item) const {
+  Point const velocity = real_.v(particle);
   auto const at = static_cast<std::size_t>(particle);
-  std::vector<Held> lasting;
+  std::vector<HeldDirection> lasting;
   std::vector<Direction> directions;
   // The support named last decides where several hold a particle.
   for (std::size_t k = held_[at].size(); k-- > 0;) {
-    Held const& held = held_[at][k];
+    HeldDirection const& held = held_[at][k];
     if (has_ended(supports_[held.support].until, time)) continue;
     lasting.push_back(held);
     directions.push_back(held.direction);
@@ -253,13 +257,14 @@ void Boundary::hold(Index particle, double time, double dt, Point const& velocit
     item.speed_before[item.held] = dot(velocity, along.direction);
     item.speed_after[item.held] = along.speed([&](std::size_t row) {
       auto const& given = supports_[lasting[row].support].velocity;
-      return given ? speed_along(*given, lasting[row].direction, X_[at], time + dt) : 0;
+      return given ? speed_along(*given, lasting[row].direction, real_.X(particle), time + dt) : 0;
     });
     ++item.held;
   }
 }
 
-void Boundary::load(Index particle, double time, double dt, Stress const& stress, BoundaryItem& item) const {
+void Boundary::prescribe_stress(Index particle, double time, double dt, BoundaryItem& item) const {
+  Stress const stress = real_.stress_components(particle);
   auto const at = static_cast<std::size_t>(particle);
   int const n = D_ * (D_ + 1) / 2;
   item.rows = 0;
@@ -268,12 +273,12 @@ void Boundary::load(Index particle, double time, double dt, Stress const& stress
   for (int h = 0; h < item.held; ++h)
     held.push_back({item.direction[h][0], item.direction[h][1], item.direction[h][2]});
   std::vector<Point> const free = free_directions(held, D_);
-  bool const fresh = !(time > 0) || std::any_of(held_[at].begin(), held_[at].end(), [&](Held const& h) {
+  bool const fresh = !(time > 0) || std::any_of(held_[at].begin(), held_[at].end(), [&](HeldDirection const& h) {
     double const until = supports_[h.support].until;
     return has_ended(until, time) && !has_ended(until, time * (1 - 1e-8));
   });
   for (auto const& side : sides_[at]) {
-    Point const now = traction_on(side, X_[at], time), then = traction_on(side, X_[at], time + dt);
+    Point const now = traction_on(side, particle, time), then = traction_on(side, particle, time + dt);
     for (auto const& d : free) {
       auto row = dyad(d, side.normal, D_);
       double before = dot(d, now), after = dot(d, then);
@@ -297,32 +302,32 @@ void Boundary::load(Index particle, double time, double dt, Stress const& stress
   }
 }
 
-void Boundary::prepare(double time, double dt, Points const& x, std::function<Point(Index)> const& velocity,
-                       std::function<Stress(Index)> const& stress_now) {
+void Boundary::prescribe(double time, double dt) {
   PIOLA_EXPECTS(dt >= 0);
-  turn(x);
+  update_normals();
   for (std::size_t k = 0; k < particles_.size(); ++k) {
-    hold(particles_[k], time, dt, velocity(particles_[k]), items_[k]);
-    load(particles_[k], time, dt, stress_now(particles_[k]), items_[k]);
+    prescribe_velocity(particles_[k], time, dt, items_[k]);
+    prescribe_stress(particles_[k], time, dt, items_[k]);
   }
 }
 
-void Boundary::prepare_speeds(double time, double dt, Points const& x, std::function<Point(Index)> const& velocity) {
-  if (has_tractions()) turn(x);
-  if (!holds()) return;
-  for (std::size_t k = 0; k < particles_.size(); ++k) hold(particles_[k], time, dt, velocity(particles_[k]), items_[k]);
+void Boundary::prescribe_velocities(double time, double dt) {
+  if (has_tractions()) update_normals();
+  if (!has_supports()) return;
+  for (std::size_t k = 0; k < particles_.size(); ++k) prescribe_velocity(particles_[k], time, dt, items_[k]);
 }
 
-double Boundary::power(std::function<Point(Index)> const& velocity, std::function<Stress(Index)> const& stress) const {
+double Boundary::power() const {
   exec::ReproducibleSum sum;
   for (Index const particle : particles_)
     for (auto const& side : sides_[static_cast<std::size_t>(particle)])
-      sum += dot(velocity(particle), traction_of(stress(particle), side.area, D_));
+      sum += dot(real_.v(particle), traction_of(real_.stress_components(particle), side.area, D_));
   return sum.value();
 }
 
-Point Boundary::force_on_sides(Index particle, Stress const& stress) const {
+Point Boundary::force_on_sides(Index particle) const {
   Point f{};
+  Stress const stress = real_.stress_components(particle);
   for (auto const& side : sides_[static_cast<std::size_t>(particle)]) {
     Point const part = traction_of(stress, side.area, D_);
     for (std::size_t c = 0; c < 3; ++c) f[c] += part[c];
@@ -334,14 +339,10 @@ void Boundary::each_traction(double time, AddLoad const& add) const {
   for (Index const particle : particles_)
     for (auto const& side : sides_[static_cast<std::size_t>(particle)])
       for (std::size_t const l : side.tractions) {
-        Point f = traction_of_load(l, side, X_[static_cast<std::size_t>(particle)], time);
+        Point f = traction_of_load(l, side, particle, time);
         for (double& c : f) c *= length(side.area);
         add(traction_number_[l], particle, f);
       }
-}
-
-bool Boundary::holds() const {
-  return std::any_of(held_.begin(), held_.end(), [](auto const& held) { return !held.empty(); });
 }
 
 void Boundary::each_acceleration(double time, AddLoad const& add) const {
@@ -351,7 +352,7 @@ void Boundary::each_acceleration(double time, AddLoad const& add) const {
     for (std::size_t k = 0; k < load.particles.size(); ++k) {
       Point a{};
       for (std::size_t c = 0; c < static_cast<std::size_t>(D_); ++c)
-        a[c] = load.factor[k] * load.value[c](X_[static_cast<std::size_t>(load.particles[k])], time);
+        a[c] = load.factor[k] * load.value[c](real_.X(static_cast<Index>(load.particles[k])), time);
       add(acceleration_number_[l], static_cast<Index>(load.particles[k]), a);
     }
   }

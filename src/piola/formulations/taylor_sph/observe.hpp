@@ -3,11 +3,15 @@
 #include "piola/formulations/common/diagnostics_sum.hpp"
 #include "piola/formulations/taylor_sph/body.hpp"
 #include <span>
+#include <vector>
 
 /// Observed quantities of a Taylor-SPH state; read-only.
 namespace piola::taylor_sph {
 
 void observe(TaylorBody const& body, ParticleSet const& set, DiagnosticsSum& observation);
+
+/// Strain that is inconsistent with the stress, by particle; zeros in the fixed configuration.
+std::vector<double> strain_drift(TaylorBody const& body);
 
 /// The fields of Taylor-SPH for frames and probes.
 std::vector<FieldInfo> output_field_names();

@@ -115,7 +115,7 @@ Options read_options(FormulationSpec const& spec, int dimension, double cfl, boo
                                                    : of_simplices);
   o.conserve = word(spec, "momentum_projection") == "on" && !o.adjoint;
   o.hourglass = o.adjoint ? 0 : number_of(spec, "hourglass_filter", o.moving && dimension > 1 ? 0.3 : 0);
-  o.memory = number_of(spec, "stress_retention", 0.2);
+  o.stress_retention = number_of(spec, "stress_retention", 0.2);
   o.hourglass_stiffness = o.lattice_cells ? number_of(spec, "hourglass_stiffness", 0.05) : 0;
   o.cfl = std::isnan(cfl) ? (o.adjoint || o.moving || (dimension > 1 && !o.lattice_cells) ? 0.9 : 1.0) : cfl;
   if (o.cfl > 1)

@@ -11,7 +11,7 @@ struct Options {
   GradientForm form = GradientForm::linear_exact;
   Kernel const* kernel = nullptr;  ///< for estimates
   bool adjoint = true;             ///< the adjoint exchange between the two sets; else estimates by kernel sums
-  double memory = 0.2;             ///< adjoint: weight of the cells' own stress
+  double stress_retention = 0.2;   ///< adjoint: weight of the cells' own stress
   double hourglass_stiffness = 0;  ///< adjoint: of the patterns of boxes, as a fraction of D_11
   bool lattice_cells = false;      ///< virtual particles in the middle of lattice boxes; else of simplices
   bool stress_free = false;        ///< the missing directions: free of stress, else fixed

@@ -89,4 +89,52 @@ PIOLA_FN T volume_after(T const& volume, T const& rate, double dt) {
   return volume * (1.0 + 0.5 * dt * rate) / (1.0 - 0.5 * dt * rate);
 }
 
+/// The rotation of a spin (L - L^T)/2 over dt by Cayley's formula, (1 - W/2)^-1 (1 + W/2): orthogonal to round-off.
+template <int D, class T>
+PIOLA_FN Mat<D, T> cayley(Mat<D, T> const& L, double dt) {
+  Mat<D, T> less = identity<D, T>(), more = identity<D, T>();
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) {
+      T const half = (0.25 * dt) * (L(i, j) - L(j, i));
+      less(i, j) = less(i, j) - half;
+      more(i, j) = more(i, j) + half;
+    }
+  return inverse(less) * more;
+}
+
+/// R s R^T.
+template <int D, class T>
+PIOLA_FN SymMat<D, T> turned(SymMat<D, T> const& s, Mat<D, T> const& R) {
+  Mat<D, T> const Rs = R * s;
+  SymMat<D, T> r;
+  for (int i = 0; i < D; ++i)
+    for (int j = i; j < D; ++j) {
+      r(i, j) = Rs(i, 0) * R(j, 0);
+      for (int k = 1; k < D; ++k) r(i, j) = r(i, j) + Rs(i, k) * R(j, k);
+    }
+  return r;
+}
+
+/// Jaumann rate over a step: half the strain, the rotation, the other half.
+template <int D, class Law, class T>
+PIOLA_FN void advance_stress(Law const& law, Constants const& k, Mat<D, T> const& L, double dt, SymMat<D, T>& s,
+                             T& across) {
+  PlaneStress<D, T> const rate = elastic_rate<D>(law, k.lateral, L);
+  double const first = k.moving ? 0.5 * dt : dt;
+  for (int c = 0; c < SymMat<D>::size; ++c) s.c[c] = s.c[c] + first * rate.in_plane.c[c];
+  across = across + dt * rate.across;
+  if (!k.moving) return;
+  s = turned(s, cayley(L, dt));
+  for (int c = 0; c < SymMat<D>::size; ++c) s.c[c] = s.c[c] + (0.5 * dt) * rate.in_plane.c[c];
+}
+
+/// L : D : L, twice the power density of a velocity gradient on its own stress per time [Pa/s2].
+template <int D, class Law, class T>
+PIOLA_FN T elastic_square(Law const& law, double lateral, Mat<D, T> const& L) {
+  SymMat<3, T> const d = rate_of_deformation<D>(L, lateral), rate = law.stress_rate(d);
+  T sum = d.c[0] * rate.c[0];
+  for (int c = 1; c < 6; ++c) sum = sum + (c < 3 ? 1.0 : 2.0) * (d.c[c] * rate.c[c]);
+  return sum;
+}
+
 }  // namespace piola::taylor_sph::inline PIOLA_BACKEND

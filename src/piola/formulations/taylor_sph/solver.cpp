@@ -89,12 +89,12 @@ class Solver final : public Formulation {
   void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                    std::span<std::array<double, 3>> v) const override {
     visit(ids, [&](std::size_t k, TaylorBody const& body, Index i) {
-      x[k] = body.place(i);
-      v[k] = body.v(i);
+      x[k] = body.particles().place(i);
+      v[k] = body.particles().v(i);
     });
   }
   void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
-    visit(ids, [&](std::size_t k, TaylorBody const& body, Index i) { m[k] = body.mass(i); });
+    visit(ids, [&](std::size_t k, TaylorBody const& body, Index i) { m[k] = body.particles().mass(i); });
   }
   void add_velocities(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
     visit(ids, [&](std::size_t k, TaylorBody& body, Index i) { body.add_velocities(i, change[k]); });
@@ -111,10 +111,10 @@ class Solver final : public Formulation {
     for (auto const& body : bodies_) {
       observe(*body, set_, all);
       more[0] += body->state().filter_loss + body->state().exchange_loss;
-      more[1] += static_cast<double>(body->list_updates());
-      more[2] += static_cast<double>(body->triangulations());
+      more[1] += static_cast<double>(body->remeshing().list_updates);
+      more[2] += static_cast<double>(body->remeshing().triangulations);
       more[3] += body->staggering_energy();
-      for (double const p : body->strain_drift()) more[4] = std::max(more[4], p);
+      for (double const p : strain_drift(*body)) more[4] = std::max(more[4], p);
     }
     Diagnostics d = all.finish();
     d.stabilisation_loss = more[0];
@@ -170,18 +170,20 @@ std::optional<Failure> Solver::failure() const {
   for (auto const& body : bodies_) {
     FailureSlot const& slot = *body->state().failure;
     bool const wild = slot.index != FailureSlot::none;
-    if (!wild && !body->lost() && !body->inverted()) continue;
-    Index const i = wild ? body->local_of(slot.index) : body->lost() ? body->lost()->particle : body->worst_corner();
+    if (!wild && !body->detached() && !body->inverted()) continue;
+    Index const i = wild               ? body->particles().particle_in(slot.index)
+                    : body->detached() ? body->detached()->particle
+                                       : body->worst_corner();
     Failure f;
-    f.what = wild           ? "has a velocity or stress that is not a number"
-             : body->lost() ? body->lost()->what
-                            : "is at a cell that is turned inside out, crushed or torn";
+    f.what = wild               ? "has a velocity or stress that is not a number"
+             : body->detached() ? body->detached()->what
+                                : "is at a cell that is turned inside out, crushed or torn";
     f.particle = body->body().first + i;
     f.body = body->body().name;
-    f.X = body->X(i);
-    f.x = body->x(i);
-    auto const v = body->v(i);
-    f.values = {{"rho0 / rho", body->volume_ratio(i)},
+    f.X = body->particles().X(i);
+    f.x = body->particles().x(i);
+    auto const v = body->particles().v(i);
+    f.values = {{"rho0 / rho", body->particles().volume_ratio(i)},
                 {"virtual neighbours", body->neighbours(i)},
                 {"speed [m/s]", std::hypot(v[0], v[1], v[2])},
                 {"cfl", body->options().cfl}};
@@ -190,60 +192,16 @@ std::optional<Failure> Solver::failure() const {
   return std::nullopt;
 }
 
-/// Calls f(name, values) for the checkpoint data of a body.
-template <class S, class F>
-void each_array(S& snapshot, std::size_t body, F const& f) {
-  f(fmt::format("body{}_position", body), snapshot.x);
-  f(fmt::format("body{}_velocity", body), snapshot.v);
-  f(fmt::format("body{}_drift", body), snapshot.drift);
-  f(fmt::format("body{}_displacement", body), snapshot.displacement);
-  f(fmt::format("body{}_stress", body), snapshot.stress);
-  f(fmt::format("body{}_out_of_plane_stress", body), snapshot.across);
-  f(fmt::format("body{}_kernel_volume", body), snapshot.volume);
-  f(fmt::format("body{}_position_of_lists", body), snapshot.x_of_lists);
-  f(fmt::format("body{}_position_of_cells", body), snapshot.x_of_cells);
-  f(fmt::format("body{}_cells", body), snapshot.corners);
-  f(fmt::format("body{}_cell_stress", body), snapshot.cell_stress);
-  f(fmt::format("body{}_cell_out_of_plane_stress", body), snapshot.cell_across);
-  f(fmt::format("body{}_cell_hourglass", body), snapshot.cell_hourglass);
-  f(fmt::format("body{}_books", body), snapshot.energy_totals);
-}
-
 void Solver::save(StateWriter& writer) const {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    Snapshot const snapshot = bodies_[k]->snapshot();
-    std::array const cells{static_cast<double>(snapshot.corners.size())};
-    writer.put(fmt::format("body{}_cell_corners", k), cells);
-    each_array(snapshot, k,
-               [&](std::string const& name, std::vector<double> const& values) { writer.put(name, values); });
+    save_body(*bodies_[k], k, writer);
   }
   writer.put("time", std::array{time_});
   writer.put("actions", actions_.state());
 }
 
-/// Numbers of particles are used as places in memory.
-void expect_number_below(double number, double bound, std::size_t body) {
-  if (number >= 0 && number < bound && number == std::floor(number)) return;
-  throw FileError(
-      fmt::format("checkpoint: the cells of body {} have a corner {} (allowed: whole numbers below {}) - it "
-                  "was written by another version; run the case again",
-                  body, number, bound));
-}
-
 void Solver::load(StateReader& reader) {
-  for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    Snapshot snapshot = bodies_[k]->snapshot();
-    std::array<double, 1> cells{};
-    reader.get(fmt::format("body{}_cell_corners", k), cells);
-    expect_number_below(cells[0], std::pow(2.0, 32), k);
-    std::size_t const now = snapshot.corners.size(), then = static_cast<std::size_t>(cells[0]);
-    for (auto* per_cell : {&snapshot.corners, &snapshot.cell_stress, &snapshot.cell_across, &snapshot.cell_hourglass})
-      per_cell->resize(now == 0 ? then : per_cell->size() * then / now);
-    each_array(snapshot, k, [&](std::string const& name, std::vector<double>& values) { reader.get(name, values); });
-    auto const points = static_cast<double>(bodies_[k]->particles());
-    for (double const corner : snapshot.corners) expect_number_below(corner, points, k);
-    bodies_[k]->restore(snapshot);
-  }
+  for (std::size_t k = 0; k < bodies_.size(); ++k) load_body(*bodies_[k], k, reader);
   std::array<double, 1> time{};
   reader.get("time", time);
   time_ = time[0];

@@ -26,7 +26,7 @@ struct Constants {
   bool moving;                     ///< updated Lagrangian; false: initial configuration, geometrically linear
   bool loaded;                     ///< there are accelerations
   bool adjoint = false;            ///< the adjoint exchange; else estimates by kernel sums
-  double memory = 0;               ///< adjoint: weight of the cells' own stress
+  double stress_retention = 0;     ///< adjoint: weight of the cells' own stress
   double hourglass_stiffness = 0;  ///< adjoint, boxes: of their patterns, as a fraction of D_11
 };
 
@@ -41,6 +41,11 @@ struct Record {
   static constexpr int stride = (values + 7) / 8 * 8;
 };
 constexpr int record_stride(int dimension) { return dimension == 3 ? Record<3>::stride : Record<2>::stride; }
+/// Position of the stress in a record.
+constexpr int stress_in_record(int dimension) { return 2 * dimension + 1; }
+
+/// Number of slots for n particles or cells: a multiple of every lane count.
+constexpr Index aligned(Index n) { return (n + 15) / 16 * 16; }
 
 /// Prescribed values at a particle of the surface, or of a support, during one step. Rows of stress are orthonormal in
 /// the space of stresses with shear components times sqrt(2) (Mandel), in the order of SymMat.
@@ -74,7 +79,7 @@ struct CellsAround {
 };
 
 /// State and output of cells under the adjoint exchange; a cell's own stress is in its record.
-struct CellMemory {
+struct CellState {
   double* across = nullptr;     ///< out-of-plane stress [Pa]
   double* force = nullptr;      ///< on each corner [N], D per corner
   double* gradient = nullptr;   ///< volume times velocity gradient, D * D per cell
@@ -128,7 +133,7 @@ struct BodyState {
   CellTable cells;
   HourglassTable hourglass;
   CellsAround around;
-  CellMemory memory;
+  CellState cell_state;
   BoundaryItem* items = nullptr;  ///< per slot of `boundary`
   double* partial = nullptr;      ///< room for partial sums of reductions, 16 per block
   FailureSlot* failure = nullptr;

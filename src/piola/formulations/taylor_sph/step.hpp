@@ -69,15 +69,15 @@ class Step {
   /// A whole step by the adjoint exchange.
   void adjoint(double dt) {
     Range const cells = even_local_range(b_.virtuals);
-    exec::for_each(cells, CornerForces<D, Law>{law_, b_.k, b_.cells, b_.memory, b_.real, b_.virtual_, dt});
-    allgather_slots(b_.memory.force, std::ptrdiff_t{D} * b_.cells.corners, b_.virtuals);
+    exec::for_each(cells, CornerForces<D, Law>{law_, b_.k, b_.cells, b_.cell_state, b_.real, b_.virtual_, dt});
+    allgather_slots(b_.cell_state.force, std::ptrdiff_t{D} * b_.cells.corners, b_.virtuals);
     Sums<2> work;
     advance_velocities(b_.interior, b_.interior_count, nullptr, dt, work.of[0]);
     advance_velocities(b_.boundary, b_.boundary_count, b_.items, dt, work.of[1]);
     complete_and_add(work, records(), of_particles(b_.drift, D));
     b_.work = 0;
     for (auto const& part : work.of) b_.work += part.value();
-    exec::for_each_block(cells, StrainCells<D, Law>{law_, b_.k, b_.cells, b_.memory, b_.real, view(b_.drift),
+    exec::for_each_block(cells, StrainCells<D, Law>{law_, b_.k, b_.cells, b_.cell_state, b_.real, view(b_.drift),
                                                     b_.virtual_, b_.virtual_count, b_.partial, dt});
     Sums<1> of_cells;
     add_blocks(cells, of_cells.of[0]);
@@ -90,13 +90,13 @@ class Step {
     end.first.put(*b_.failure);
     double square = of_cells.of[0].value();
     for (auto const& part : end.squares) square -= part.value();
-    b_.exchange_loss += 0.5 * (1 - b_.k.memory) * dt * dt * square;
+    b_.exchange_loss += 0.5 * (1 - b_.k.stress_retention) * dt * dt * square;
   }
   /// Energies of the cells of all ranks; not collective.
   CellEnergy cell_energy() {
     using Pass = CellEnergies<D, Law>;
     exec::for_each_block(b_.virtuals,
-                         Pass{law_, b_.k, b_.cells, b_.memory, b_.real, b_.virtual_, b_.virtual_count, b_.partial});
+                         Pass{law_, b_.k, b_.cells, b_.cell_state, b_.real, b_.virtual_, b_.virtual_count, b_.partial});
     auto const sum = exec::add_partials<Pass::results>(b_.partial, exec::block_count(b_.virtuals));
     return {sum.v[0], sum.v[1], sum.v[2]};
   }
@@ -172,9 +172,9 @@ class Step {
   }
   Arrays changed_cells() const {
     return {{b_.virtual_, Record<D>::stride, b_.virtuals},
-            {b_.memory.across, 1, b_.virtuals},
-            {b_.memory.gradient, std::ptrdiff_t{D} * D, b_.virtuals},
-            {b_.memory.hourglass, std::ptrdiff_t{D} * b_.memory.patterns, b_.virtuals}};
+            {b_.cell_state.across, 1, b_.virtuals},
+            {b_.cell_state.gradient, std::ptrdiff_t{D} * D, b_.virtuals},
+            {b_.cell_state.hourglass, std::ptrdiff_t{D} * b_.cell_state.patterns, b_.virtuals}};
   }
   /// Sum over the blocks of these slots in `partial`.
   template <int N>
@@ -184,15 +184,16 @@ class Step {
   void advance_velocities(Range range, Index count, BoundaryItem const* items, double dt, Sum& work) {
     Range const own = even_local_range(range);
     exec::for_each_block(
-        own, AdvanceVelocities<D>{b_.k, b_.around, b_.memory, b_.real, view(b_.mass), acceleration(), write(b_.drift),
-                                  items, range.first, range.first + count, b_.partial, dt});
+        own, AdvanceVelocities<D>{b_.k, b_.around, b_.cell_state, b_.real, view(b_.mass), acceleration(),
+                                  write(b_.drift), items, range.first, range.first + count, b_.partial, dt});
     add_blocks(own, work);
   }
   void advance_stresses(Range range, Index count, double dt, Sum& square) {
     Range const own = even_local_range(range);
-    exec::for_each_block(own, AdvanceStresses<D, Law>{law_, b_.k, b_.around, b_.memory, b_.cells.corners, b_.virtual_,
-                                                      b_.real, write(b_.out_of_plane), write(b_.displacement),
-                                                      view(b_.drift), range.first + count, b_.failure, b_.partial, dt});
+    exec::for_each_block(
+        own, AdvanceStresses<D, Law>{law_, b_.k, b_.around, b_.cell_state, b_.cells.corners, b_.virtual_, b_.real,
+                                     write(b_.out_of_plane), write(b_.displacement), view(b_.drift),
+                                     range.first + count, b_.failure, b_.partial, dt});
     add_blocks(own, square);
   }
   void gather_volumes(Range range, Index count) {

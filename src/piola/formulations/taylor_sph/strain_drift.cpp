@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Strain drift: consistency of positions and stress of a moving body.
-#include "piola/formulations/taylor_sph/body.hpp"
+#include "piola/formulations/taylor_sph/observe.hpp"
 #include "piola/materials/laws.hpp"
 #include "piola/math/solve.hpp"
 #include <algorithm>
@@ -38,28 +38,34 @@ double size(Mat<3> const& m, int D) {
 
 /// Per particle, the largest of its cells: |(F F^T - 1)/2 - e| - |e|^2 with the deformation gradient F of the corners
 /// and the elastic strain e of their mean stress, D^-1:s. Both are equal except for second-order terms.
-std::vector<double> TaylorBody::strain_drift() const {
-  std::vector<double> out(X_.size(), 0);
-  if (!state_.k.moving) return out;
+std::vector<double> strain_drift(TaylorBody const& body) {
+  Particles const& particles = body.particles();
+  Cells const& cells = body.mesh().cells();
+  int const D = particles.dimension();
+  std::vector<double> out(particles.X().size(), 0);
+  if (!body.state().k.moving) return out;
   double lambda = 0, mu = 1;
-  with_law(state_.material, [&](auto const& law) {
+  with_law(body.state().material, [&](auto const& law) {
     if constexpr (RateForm<std::decay_t<decltype(law)>>) {
       lambda = law.lambda;
       mu = law.mu;
     }
   });
-  Points const now = positions();
-  for (Index cell = 0; cell < cells_.count(); ++cell) {
-    auto const corners = cells_.of(cell);
-    Mat<3> const F = span_of(corners, now, D()) * inverse(span_of(corners, start_, D()));
+  Points const now = particles.positions();
+  for (Index cell = 0; cell < cells.count(); ++cell) {
+    auto const corners = cells.of(cell);
+    Mat<3> const F = span_of(corners, now, D) * inverse(span_of(corners, particles.start(), D));
     Mat<3> s{};
     for (Index const corner : corners)
-      s = s + (1.0 / static_cast<double>(corners.size())) * (identity<3>() * stress(corner));
+      s = s + (1.0 / static_cast<double>(corners.size())) * (identity<3>() * particles.stress(corner));
     double const spherical = lambda / (2 * mu + 3 * lambda) * trace(s);
     Mat<3> const elastic = (0.5 / mu) * (s - spherical * identity<3>());
     Mat<3> const shown = 0.5 * (F * transpose(F) - identity<3>());
-    double const e = size(elastic, D()), value = size(shown - elastic, D()) - e * e;
-    for (Index const corner : corners) out[at(corner)] = std::max(out[at(corner)], value);
+    double const e = size(elastic, D), value = size(shown - elastic, D) - e * e;
+    for (Index const corner : corners) {
+      double& largest = out[static_cast<std::size_t>(corner)];
+      largest = std::max(largest, value);
+    }
   }
   return out;
 }
