@@ -38,10 +38,9 @@ struct Blocks {
     surfaces.push_back(contact_surface(shape, set, set.bodies.back()));
     surfaces.back().modulus = set.bodies.size() == 1 ? 2e6 : 5e6;
   }
-  SurfaceContactSystem::Setting setting(std::size_t rigids, FrictionLaw const& friction = {}) const {
+  PairSettings setting(std::size_t rigids, FrictionLaw const& friction = {}) const {
     std::size_t const n = surfaces.size();
-    SurfaceContactSystem::Setting s(n,
-                                    std::vector<SurfaceContactSystem::PairSetting>(n + rigids, {true, 0.5, friction}));
+    PairSettings s(n, std::vector<PairSetting>(n + rigids, {true, 0.5, friction}));
     for (std::size_t b = 0; b < n; ++b) s[b][b].is_active = false;
     return s;
   }

@@ -49,7 +49,7 @@ class Chatter : public ::testing::TestWithParam<int> {
 
 TEST_P(Chatter, KeepsMomenta) {
   auto d = damping(1);
-  d.look(hosts_, state(1e-3));
+  d.evaluate(hosts_, state(1e-3));
   Vec<3> sum, moment;
   double size = 0;
   for (Index const k : d.damped()) {
@@ -68,7 +68,7 @@ TEST_P(Chatter, KeepsMomenta) {
 TEST_P(Chatter, TakesAtMostItsShareOfTheHeat) {
   for (double const share : {0.01, 0.2}) {
     auto d = damping(share);
-    d.look(hosts_, state(1e-2));
+    d.evaluate(hosts_, state(1e-2));
     EXPECT_LE(taken(d), share * heat());
     EXPECT_GE(taken(d), 0.5 * share * heat()) << "there is more to take than it may";
   }
@@ -78,7 +78,7 @@ TEST_P(Chatter, NeverFeedsEnergyHoweverLongTheStep) {
   for (double& h : heat_) h = 1e9;
   for (double const dt : {1e-5, 1e-2, 1e3}) {
     auto d = damping(1);
-    d.look(hosts_, state(dt));
+    d.evaluate(hosts_, state(dt));
     double energy = 0;
     for (std::size_t k = 0; k < v_.size(); ++k) energy += 0.5 * square_of(v_[k]) / inverse_masses_[k];
     EXPECT_GT(taken(d), 0);
@@ -91,11 +91,11 @@ TEST_P(Chatter, LeavesRigidMotionAndWhatDoesNotRub) {
   auto const shaken = v_;
   for (std::size_t k = 0; k < v_.size(); ++k) v_[k] = Vec<3>{{5, -1, 0}} + cross(spin, x_[k]);
   auto d = damping(1);
-  d.look(hosts_, state(1e-2));
+  d.evaluate(hosts_, state(1e-2));
   for (Index const k : d.damped()) EXPECT_LT(square_of(d.impulses()[at(k)]), 1e-24);
   v_ = shaken;
   for (double& h : heat_) h = 0;
-  d.look(hosts_, state(1e-2));
+  d.evaluate(hosts_, state(1e-2));
   EXPECT_TRUE(d.damped().empty());
   EXPECT_FALSE(damping(0).any());
 }

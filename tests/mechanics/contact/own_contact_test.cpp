@@ -45,7 +45,7 @@ TEST_P(OwnContact, ABodyAtRestDoesNotPushItself) {
   EXPECT_EQ(system.totals().touched, 0);
   EXPECT_EQ(system.totals().energy, 0);
   Blocks const blocks(GetParam(), -1);
-  SurfaceContactSystem::Setting setting = blocks.setting(0);
+  PairSettings setting = blocks.setting(0);
   for (std::size_t b = 0; b < setting.size(); ++b) setting[b][b].is_active = true;
   SurfaceContactSystem corners(blocks.set, blocks.surfaces, {}, setting);
   auto x = places(corners, blocks.set);

@@ -41,9 +41,8 @@ struct Lying {
   SurfaceContactSystem system(double friction, bool is_active = true) const {
     return {set, surfaces, {surface_of(shapes[0], dimension)}, touching(friction, is_active)};
   }
-  static SurfaceContactSystem::Setting touching(double friction, bool is_active = true) {
-    return {{SurfaceContactSystem::PairSetting{},
-             SurfaceContactSystem::PairSetting{is_active, 0.5, {.kinetic = friction}}}};
+  static PairSettings touching(double friction, bool is_active = true) {
+    return {{PairSetting{}, PairSetting{is_active, 0.5, {.kinetic = friction}}}};
   }
   std::vector<Vec<3>> places(SurfaceContactSystem const& system) const {
     std::vector<Vec<3>> x;

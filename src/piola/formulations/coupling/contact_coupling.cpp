@@ -241,7 +241,7 @@ double ContactCoupling::contact_time_step() const {
 void ContactCoupling::begin(Formulations const& formulations, double time, double dt) {
   PIOLA_EXPECTS(formulations.size() == shares_.size() && dt > 0);
   actions_.begin(dt);
-  std::fill(pair_impulses_.begin(), pair_impulses_.end(), contact::SurfaceContactSystem::ForceMoment{});
+  std::fill(pair_impulses_.begin(), pair_impulses_.end(), contact::ForceMoment{});
   ties_.begin();
   last_dt_ = dt;
   apply_impulses(formulations, time, 0.5 * dt);

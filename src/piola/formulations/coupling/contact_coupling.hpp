@@ -112,7 +112,7 @@ class ContactCoupling {
   contact::ColourContact colours_;
   std::vector<Vec<3>> forces_;         ///< of contact and ties [N], by index into run_ids_
   std::vector<Index> loaded_indices_;  ///< indices with a force, ascending
-  std::vector<contact::SurfaceContactSystem::ForceMoment> pair_impulses_;
+  std::vector<contact::ForceMoment> pair_impulses_;
   std::vector<double> loaded_;  ///< from a checkpoint, until the state of the bodies is loaded
   double work_ = 0, friction_work_ = 0, chatter_loss_ = 0, last_dt_ = 0, closing_ = 0;
 };

@@ -50,14 +50,14 @@ bool have_surfaces(Assembly const& whole, std::size_t a, std::size_t b) {
 /// Pair settings of surface contact. Surfaces are in contact unless both bodies have kernel contact of their own and
 /// are neither tied nor named as a pair, or one has it and the other is a rigid shape that does not rotate. Settings of
 /// a pair override those of all.
-contact::SurfaceContactSystem::Setting touches_of(Assembly const& whole) {
+contact::PairSettings touches_of(Assembly const& whole) {
   auto const own = [&](std::size_t b) {
     auto const info = find_formulation(whole.formulations[b].name);
     return info && info->contact && whole.contact.law != ContactRule::Law::surface;
   };
   auto const& bodies = whole.particles.bodies;
   std::size_t const n = bodies.size(), all = n + whole.rigid_shapes.size();
-  contact::SurfaceContactSystem::Setting touches(n, std::vector<contact::SurfaceContactSystem::PairSetting>(all));
+  contact::PairSettings touches(n, std::vector<contact::PairSetting>(all));
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = 0; b < all; ++b) {
       bool const rigid = b >= n;

@@ -79,7 +79,7 @@ ChatterDamping::Motion ChatterDamping::motion_of(Cluster const& cluster, HostPar
   return motion;
 }
 
-void ChatterDamping::look(HostParticles const& hosts, State const& now) {
+void ChatterDamping::evaluate(HostParticles const& hosts, State const& now) {
   PIOLA_EXPECTS(now.x.size() >= impulses_.size() && now.v.size() >= impulses_.size());
   PIOLA_EXPECTS(now.inverse_masses.size() >= impulses_.size());
   PIOLA_EXPECTS(clusters_.empty() || now.heat.size() == at(hosts.count()));

@@ -24,7 +24,7 @@ class ChatterDamping {
     double dt;                                  ///< [s]
   };
   /// Computes the impulses.
-  void look(HostParticles const& hosts, State const& now);
+  void evaluate(HostParticles const& hosts, State const& now);
   /// Indices of ids() with an impulse, ascending, and impulses by index [N s].
   std::vector<Index> const& damped() const { return damped_; }
   std::vector<Vec<3>> const& impulses() const { return impulses_; }

@@ -10,6 +10,19 @@ namespace piola::contact {
 
 inline void put(std::vector<double>& all, Vec<3> const& a) { all.insert(all.end(), a.c, a.c + 3); }
 
+/// Puts how many of the numbers k < n are in the list, `contains(k)`, and for each k and what put_values(k) adds.
+template <class Contains, class PutValues>
+void put_some(std::vector<double>& all, std::size_t n, Contains const& contains, PutValues const& put_values) {
+  std::size_t const count = all.size();
+  all.push_back(0);
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!contains(k)) continue;
+    all[count] += 1;
+    all.push_back(static_cast<double>(k));
+    put_values(k);
+  }
+}
+
 class StateVector {
  public:
   explicit StateVector(std::vector<double> const& all) : from_(all.begin()), end_(all.end()) {}

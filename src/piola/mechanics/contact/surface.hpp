@@ -8,6 +8,7 @@
 namespace piola::contact {
 
 inline std::size_t at(Index k) { return static_cast<std::size_t>(k); }
+inline double square_of(Vec<3> const& a) { return dot(a, a); }
 
 /// A point of a body's surface in the reference configuration, attached to its host particle: y = x + F S.
 struct SurfacePoint {
