@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/domain/slot_collectives.hpp"
 #include "piola/formulations/common/output_fields.hpp"
-#include "piola/formulations/formulation.hpp"
+#include "piola/formulations/observables.hpp"
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -49,12 +49,12 @@ std::optional<std::vector<std::int64_t>> local_ids(Bodies const& bodies) {
   return ids;
 }
 
-/// Implements Formulation::sample_local(): calls sample(body, its number, values of its local particles) body by body.
+/// Implements Observables::sample_local(): calls sample(body, its number, values of its local particles) body by body.
 template <class Bodies, class F>
-void sample_local_bodies(Formulation const& formulation, Bodies const& bodies, std::string_view field,
+void sample_local_bodies(Observables const& observables, Bodies const& bodies, std::string_view field,
                          std::span<double> values, F const& sample) {
-  if (!comm::is_parallel()) return formulation.sample(field, values);
-  auto const components = static_cast<std::size_t>(info_of(formulation.fields(), field).components);
+  if (!comm::is_parallel()) return observables.sample(field, values);
+  auto const components = static_cast<std::size_t>(info_of(observables.fields(), field).components);
   int number = 0;
   for (auto const& body : bodies) {
     auto const numbers = static_cast<std::size_t>(body->own().last - body->own().first) * components;

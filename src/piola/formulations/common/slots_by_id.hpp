@@ -47,7 +47,7 @@ class SlotsById {
   std::vector<Index> slot_;
 };
 
-/// Implementation of Formulation::read_motion(), read_masses() and push(). add_coupled_particles() is collective and
+/// Implementation of CoupledParticles. add_coupled_particles() is collective and
 /// returns the values of all ids on all ranks. add_velocities_of() must be called with the same ids on all ranks;
 /// changes of particles of other ranks have no effect.
 template <class Bodies>

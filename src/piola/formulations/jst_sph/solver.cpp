@@ -7,6 +7,7 @@
 #include "piola/formulations/common/field_checkpoint.hpp"
 #include "piola/formulations/common/sample_local.hpp"
 #include "piola/formulations/common/slots_by_id.hpp"
+#include "piola/formulations/coupled_particles.hpp"
 #include "piola/formulations/jst_sph/body.hpp"
 #include "piola/formulations/jst_sph/observe.hpp"
 #include "piola/formulations/jst_sph/stability.hpp"
@@ -20,7 +21,7 @@ namespace piola::jst_sph {
 namespace {
 
 /// JST-SPH of one or more bodies that do not touch each other.
-class Solver final : public Formulation {
+class Solver final : public Formulation, public Observables, public CoupledParticles {
   /// Fraction of the stability limit that is used: power iterations come from below.
   static constexpr double margin = 0.85;
   /// The first step takes this fraction of the limit and each further one may be longer by `growth`: a violent start,
@@ -44,24 +45,15 @@ class Solver final : public Formulation {
   }
 
   double stable_time_step() const override {
-    double dt = steady_time_step();
+    double dt = step_limit();
     bool const monitored = std::any_of(monitors_.begin(), monitors_.end(), [](auto const& m) { return m != nullptr; });
     if (monitored) dt = std::min(dt, last_step_ > 0 ? growth * last_step_ : first_share * dt);
     return clip_step_to_end_time_of(bodies_, time_, dt);
   }
 
-  double steady_time_step() const override {
-    double dt = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < bodies_.size(); ++k) {
-      double const c = largest_speed_[k], h = bodies_[k]->state().constants.h_min;
-      dt = std::min(dt, monitors_[k] ? margin * monitors_[k]->step(c) : alpha_[k] * h / c);  // (44)
-    }
-    return dt;
-  }
-
-  StepEstimate step_estimate_of_run() const override {
+  StepEstimate step_estimate() const override {
     StepEstimate rule;
-    rule.settled = rule.first = steady_time_step();
+    rule.stable = rule.settled = rule.first = step_limit();
     if (monitors_.front() == nullptr) {
       rule.limit = fmt::format("waves: run.cfl h / c with run.cfl = {}", alpha_.front());
       return rule;
@@ -88,6 +80,7 @@ class Solver final : public Formulation {
   void damp(double factor) override {
     for (auto const& body : bodies_) body->damp(factor);
   }
+  CoupledParticles* coupled_particles() override { return this; }
   void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                    std::span<std::array<double, 3>> v) const override {
     add_coupled_particles(bodies_, slots_, ids, x, v);
@@ -115,7 +108,10 @@ class Solver final : public Formulation {
     return d;
   }
 
+  Observables const& observables() const override { return *this; }
   std::vector<FieldInfo> fields() const override { return output_field_names(); }
+  std::vector<FieldInfo> fields_of(std::size_t /*body*/) const override { return fields(); }
+  std::vector<RigidState> rigids() const override { return {}; }
   void sample(std::string_view field, std::span<double> values) const override {
     int number = 0;
     for (auto const& body : bodies_) {
@@ -135,15 +131,25 @@ class Solver final : public Formulation {
   void save(StateWriter& writer) const override;
   void load(StateReader& reader) override;
 
-  int stages_per_step() const override { return bodies_.front()->options().integrator == Integrator::verlet ? 1 : 2; }
-  std::size_t memory_bytes() const override {
-    std::size_t total = set_.bytes();
-    for (auto const& body : bodies_) total += body->bytes();
-    for (auto const& monitor : monitors_) total += monitor ? monitor->bytes() : 0;
-    return total;
+  RunStatistics statistics() const override {
+    RunStatistics all;
+    all.stages_per_step = bodies_.front()->options().integrator == Integrator::verlet ? 1 : 2;
+    all.memory_bytes = set_.bytes();
+    for (auto const& body : bodies_) all.memory_bytes += body->bytes();
+    for (auto const& monitor : monitors_) all.memory_bytes += monitor ? monitor->bytes() : 0;
+    return all;
   }
 
  private:
+  /// The smallest step of all bodies at their present wave speeds [s].
+  double step_limit() const {
+    double dt = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < bodies_.size(); ++k) {
+      double const c = largest_speed_[k], h = bodies_[k]->state().constants.h_min;
+      dt = std::min(dt, monitors_[k] ? margin * monitors_[k]->step(c) : alpha_[k] * h / c);  // (44)
+    }
+    return dt;
+  }
   void find_largest_speeds() {
     largest_speed_.clear();
     for (auto const& body : bodies_) largest_speed_.push_back(backend_->largest_wave_speed(body->state()));

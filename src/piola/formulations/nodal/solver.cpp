@@ -5,8 +5,8 @@
 #include "piola/formulations/common/body_resultants.hpp"
 #include "piola/formulations/common/field_checkpoint.hpp"
 #include "piola/formulations/common/sample_local.hpp"
-#include "piola/formulations/common/set_up_checks.hpp"
 #include "piola/formulations/common/slots_by_id.hpp"
+#include "piola/formulations/coupled_particles.hpp"
 #include "piola/formulations/nodal/observe.hpp"
 #include "piola/formulations/nodal/stability.hpp"
 #include "piola/mechanics/body_boundary_conditions.hpp"
@@ -22,7 +22,7 @@ namespace piola::nodal {
 namespace {
 
 /// One or more bodies that do not touch each other.
-class Solver final : public Formulation, public SetUpChecked {
+class Solver final : public Formulation, public Observables, public CoupledParticles {
  public:
   explicit Solver(Assembly const& assembly)
       : set_(assembly.particles),
@@ -34,16 +34,16 @@ class Solver final : public Formulation, public SetUpChecked {
       bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, backend_));
       monitors_.push_back(std::make_unique<StabilityMonitor>(*bodies_.back(), backend_));
     }
-    pushed_ = assembly.coupled;
-    if (pushed_) slots_ = SlotsById(set_, bodies_);
+    if (assembly.coupled) slots_ = SlotsById(set_, bodies_);
   }
 
-  double stable_time_step() const override { return clip_step_to_end_time_of(bodies_, time_, steady_time_step()); }
-  double steady_time_step() const override { return least_step(&StabilityMonitor::step); }
+  double stable_time_step() const override {
+    return clip_step_to_end_time_of(bodies_, time_, least_step(&StabilityMonitor::step));
+  }
 
-  StepEstimate step_estimate_of_run() const override {
+  StepEstimate step_estimate() const override {
     StepEstimate rule;
-    rule.first = steady_time_step();
+    rule.stable = rule.first = least_step(&StabilityMonitor::step);
     rule.settled = least_step(&StabilityMonitor::calm_step);
     if (time_ == 0) rule.growth = StabilityMonitor::growth_at_start;
     if (bodies_.front()->options().cfl > 0) {
@@ -75,6 +75,7 @@ class Solver final : public Formulation, public SetUpChecked {
       body->damp(factor);
     }
   }
+  CoupledParticles* coupled_particles() override { return this; }
   void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                    std::span<std::array<double, 3>> v) const override {
     add_coupled_particles(bodies_, slots_, ids, x, v);
@@ -116,6 +117,9 @@ class Solver final : public Formulation, public SetUpChecked {
     return d;
   }
 
+  Observables const& observables() const override { return *this; }
+  std::vector<FieldInfo> fields_of(std::size_t /*body*/) const override { return fields(); }
+  std::vector<RigidState> rigids() const override { return {}; }
   std::vector<FieldInfo> fields() const override {
     return output_field_names(
         std::any_of(bodies_.begin(), bodies_.end(), [](auto const& b) { return b->stores_history(); }));
@@ -139,15 +143,7 @@ class Solver final : public Formulation, public SetUpChecked {
   void load(StateReader& reader) override;
   std::optional<std::vector<std::int64_t>> local_particles() const override { return local_ids(bodies_); }
 
-  int stages_per_step() const override { return 1; }
-  std::vector<std::pair<std::string, double>> timings() const override;
-  std::vector<SetUpCheck> set_up_checks() const override;
-  std::size_t memory_bytes() const override {
-    std::size_t total = set_.bytes();
-    for (auto const& body : bodies_) total += body->bytes();
-    for (auto const& monitor : monitors_) total += monitor->bytes();
-    return total;
-  }
+  RunStatistics statistics() const override;
 
  private:
   /// Updates the fields for observers; the state for steps is unchanged. Collective if the body is distributed.
@@ -180,7 +176,6 @@ class Solver final : public Formulation, public SetUpChecked {
   std::vector<std::unique_ptr<NodalBody>> bodies_;
   std::vector<std::unique_ptr<StabilityMonitor>> monitors_;
   ActionsOnBodies actions_;
-  bool pushed_ = false;                    ///< by contact or ties
   bool ends_step_ = false;                 ///< whether the next push() ends the last step or begins the next one
   double time_ = 0;                        ///< at the end of the last step [s]
   double repeated_ = 0;                    ///< steps that were taken again in halves
@@ -241,26 +236,24 @@ std::optional<Failure> Solver::failure() const {
   return std::nullopt;
 }
 
-std::vector<std::pair<std::string, double>> Solver::timings() const {
+RunStatistics Solver::statistics() const {
+  RunStatistics all;
   SetUpCosts sum;
+  all.memory_bytes = set_.bytes();
   for (auto const& body : bodies_) {
+    all.memory_bytes += body->bytes();
+    auto const& checks = body->reference().checks;
+    all.set_up_checks.insert(all.set_up_checks.end(), checks.begin(), checks.end());
     auto const& c = body->reference().costs;
     sum = {sum.cells + c.cells, sum.fits + c.fits, sum.integration_correction + c.integration_correction,
            sum.masses + c.masses, sum.tables + c.tables};
   }
-  return {{"set_up_cells", sum.cells},
-          {"set_up_fits", sum.fits},
-          {"set_up_closure", sum.integration_correction},
-          {"set_up_masses", sum.masses},
-          {"set_up_tables", sum.tables}};
-}
-
-std::vector<SetUpCheck> Solver::set_up_checks() const {
-  std::vector<SetUpCheck> all;
-  for (auto const& body : bodies_) {
-    auto const& checks = body->reference().checks;
-    all.insert(all.end(), checks.begin(), checks.end());
-  }
+  for (auto const& monitor : monitors_) all.memory_bytes += monitor->bytes();
+  all.seconds = {{"set_up_cells", sum.cells},
+                 {"set_up_fits", sum.fits},
+                 {"set_up_closure", sum.integration_correction},
+                 {"set_up_masses", sum.masses},
+                 {"set_up_tables", sum.tables}};
   return all;
 }
 
