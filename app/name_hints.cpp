@@ -2,6 +2,7 @@
 #include "name_hints.hpp"
 #include "piola/base/text.hpp"
 #include "piola/base/units.hpp"
+#include "commands.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/expression.hpp"
 #include "piola/base/text.hpp"
+#include "support/key_words.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -8,6 +9,8 @@
 
 namespace piola {
 namespace {
+
+using test::mentions;
 
 double value_of(std::string const& text, std::array<double, 3> const& X = {}, double t = 0) {
   return Expression(text)(X, t);
@@ -101,9 +104,7 @@ TEST(Expression, AFormulaWithoutFurtherVariablesNeedsNoValues) {
 TEST(Expression, FurtherVariablesAreSuggestedAndHaveOneMeaning) {
   EXPECT_NE(error_of("damge > 1", {{}, {}, {"damage"}}).text.find("did you mean \"damage\"?"), std::string::npos);
   ExpressionError const error = error_of("1 + damage", {{{"damage", 1}}, {}, {"damage"}});
-  EXPECT_EQ(error.text,
-            "\"damage\" is a variable of this formula and a name in define or constants, too - choose "
-            "another name there");
+  EXPECT_TRUE(mentions(error.text, {"damage", "variable", "define or constants", "another name"}));
   EXPECT_EQ(error.column, 5);
   EXPECT_NE(error_of("damage", {{}, {{"damage", "X"}}, {"damage"}}).column, -1);
   EXPECT_EQ(error_of("X", {{{"damage", 1}}, {}, {"damage"}}).text, "no error");
@@ -179,8 +180,7 @@ TEST(Expression, LogicBindsAsInC) {
 }
 
 TEST(Expression, OtherTonguesAreTranslated) {
-  EXPECT_EQ(error_of("5*y").text,
-            "\"y\" is not known (the position in the reference configuration is X, Y, Z) - did you mean \"Y\"?");
+  EXPECT_TRUE(mentions(error_of("5*y").text, {"y", "not known", "X, Y, Z", "did you mean \"Y\""}));
   EXPECT_EQ(error_of("5*y").column, 3);
   EXPECT_NE(error_of("2*T").text.find("did you mean \"t\"?"), std::string::npos);
   EXPECT_EQ(error_of("X > 0 and X < 1").text, "\"and\" is not an operator - write &&");
@@ -197,8 +197,7 @@ TEST(Expression, OtherTonguesAreTranslated) {
 TEST(Expression, UnitsInAFormulaAreNamed) {
   std::string const advice =
       "which cannot stand in a formula (numbers are in SI) - write the number in SI, or name the quantity in "
-      "constants, "
-      "e.g. a = \"5 mm\"";
+      "constants, e.g. a = \"5 mm\"";
   for (char const* const text : {"X <= 5 mm", "X <= 5mm", "X <= 5*mm", "X/mm", "(X + 2) mm", "2.5e3mm"}) {
     EXPECT_EQ(error_of(text).text, "\"mm\" is a unit, " + advice) << text;
   }

@@ -3,11 +3,14 @@
 #include "piola/estimates/step_range.hpp"
 #include "piola/estimates/trial.hpp"
 #include "piola/model/read_case.hpp"
+#include "support/key_words.hpp"
 #include "support/sample_case.hpp"
 #include "support/scripted_run.hpp"
 
 namespace piola {
 namespace {
+
+using test::mentions;
 
 /// Two squares of a formulation, a body length apart.
 CaseSpec two_squares(std::string const& formulation, std::string const& more = "") {
@@ -48,8 +51,7 @@ TEST(StepRange, IsThatOfContactWhateverTheTrialFound) {
     EXPECT_EQ(step_excess(two_squares("nodal", "[contact]\nlaw = \"none\"\n"), change).factor, change == 0 ? 1 : 1.5);
   }
   std::string const why = step_excess(two_squares("nodal"), 0).why;
-  EXPECT_EQ(
-      why, "steps are known as a range: contact and impact make them shorter (up to 2.5 times as many in cases known)");
+  EXPECT_TRUE(mentions(why, {"range", "contact", "shorter", "2.5 times"}));
 }
 
 /// Steps of 1 ms up to 5.5 ms and of 2 ms after.

@@ -3,11 +3,14 @@
 #include "piola/model/read_case.hpp"
 #include "piola/simulation/build.hpp"
 #include "piola/simulation/run_case.hpp"
+#include "support/key_words.hpp"
 #include "support/temporary_folder.hpp"
 #include <gtest/gtest.h>
 
 namespace piola {
 namespace {
+
+using test::expect_words;
 
 std::string failure_of(std::string const& formulation, std::string const& more) {
   std::string const text =
@@ -21,10 +24,6 @@ std::string failure_of(std::string const& formulation, std::string const& more) 
   std::atomic<int> const none{0};
   testing::TemporaryFolder const folder;
   return run_case(s, {.folder = folder / "r"}, listener, none).failure;
-}
-
-void expect_words(std::string const& text, std::vector<std::string> const& words) {
-  for (std::string const& word : words) EXPECT_NE(text.find(word), std::string::npos) << word << " in: " << text;
 }
 
 std::string const support = "[[support]]\nbody = \"bar\"\nwhere = \"X < 0.1\"\nfix = \"xy\"\n";

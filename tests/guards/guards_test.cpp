@@ -2,12 +2,13 @@
 // What guards say of runs whose energies, strains and places are written down here.
 #include "piola/materials/hypoelastic_registry.hpp"
 #include "formulations/small_bodies.hpp"
+#include "support/key_words.hpp"
 #include "support/scripted_run.hpp"
 
 namespace piola {
 namespace {
 
-using testing::expect_parts;
+using test::expect_words;
 using testing::make_plate;
 using testing::make_springs;
 using testing::Outcome;
@@ -42,12 +43,12 @@ TEST(EnergyGuard, WarnsOfARiseAboveOnePercentWithNumbersAndPlace) {
   Outcome const o = run(rising(1.05));
   EXPECT_EQ(o.of.ending, RunStatus::completed);
   ASSERT_EQ(o.of.summary.warnings.size(), 1U);
-  expect_parts(o.all(), {"energy rose without a load by 4.", " % of 10",
+  expect_words(o.all(), {"energy rose without a load by 4.", " % of 10",
                          "from t = 0 s (step 0) to t = ", "particle 6 of body 'plate' (X = (2, 1, 0) m"});
   EXPECT_NEAR(o.guards["energy_rise"]["share"].get<double>(), 0.05 / 1.05, 0.004);
   EXPECT_EQ(o.guards["energy_rise"]["warning"], o.of.summary.warnings[0]);
   ASSERT_EQ(o.shown.size(), 2U) << "while the run goes on, and at its end";
-  expect_parts(o.shown[0], {"so far, at t = 0."});
+  expect_words(o.shown[0], {"so far, at t = 0."});
 }
 
 TEST(EnergyGuard, StopsARiseAboveTenPercent) {
@@ -57,7 +58,7 @@ TEST(EnergyGuard, StopsARiseAboveTenPercent) {
   EXPECT_EQ(o.of.ending, RunStatus::failed);
   EXPECT_GT(o.of.summary.end_time, 0.455);  // from then on (E - 100) / E > 0.1
   EXPECT_LT(o.of.summary.end_time, 0.6);
-  expect_parts(o.of.failure,
+  expect_words(o.of.failure,
                {"particle 6 (body 'plate', X = (2, 1, 0) m", "gains most of an energy that no load brings",
                 "rise [%] = 1", "since step = 0", "often the step is too large"});
   EXPECT_EQ(nlohmann::json::parse(text_of(folder / "r/summary.json"))["status"], "failed");
@@ -152,8 +153,8 @@ TEST(DissipationGuard, WarnsWithTheSharesOfItsParts) {
   s.loss = [](double t) { return 15 * t; };
   s.more = [](double t) { return std::vector<std::pair<std::string, double>>{{"viscous_loss", 3 * t}}; };
   Outcome const o = run(s);
-  expect_parts(o.all(), {"the scheme took 23 % of the energy (stabilisation 15 %, viscosity and hourglass damping 3 %, "
-                         "the time steps and averages of the scheme 5 %)"});
+  expect_words(o.all(),
+               {"23 % of the energy", "stabilisation 15 %", "hourglass damping 3 %", "averages of the scheme 5 %"});
   EXPECT_NEAR(o.guards["dissipation"]["share"].get<double>(), 0.23, 1e-12);
   s.kinetic = [](double t) { return 100 - 5 * t; };
   s.loss = [](double t) { return 5 * t; };
@@ -180,7 +181,7 @@ TEST(JacobianGuard, WarnsOfTheWorstParticleOfWhatDoesNotYield) {
   s.jacobian = [](std::size_t i, double t) { return i == 9 ? 1 - 0.8 * t : i == 3 ? 1 + 1.9 * t : 1; };
   Outcome const o = run(s);
   ASSERT_EQ(o.of.summary.warnings.size(), 1U);
-  expect_parts(o.all(), {"det F reached 0.2", "at t = ", "particle 9 of body 'plate' (X = (1, 2, 0) m"});
+  expect_words(o.all(), {"det F reached 0.2", "at t = ", "particle 9 of body 'plate' (X = (1, 2, 0) m"});
   EXPECT_DOUBLE_EQ(o.guards["jacobian"]["max"].get<double>(), 2.9);
   EXPECT_NEAR(o.guards["jacobian"]["worst"].get<double>(), 0.2, 0.003);
   s.jacobian = [](std::size_t i, double t) { return i == 9 ? 1 - 0.69 * t : 1 + 1.99 * t; };
@@ -207,7 +208,7 @@ TEST(OverlapGuard, WarnsAboveOneSpacing) {
     return run(s);
   };
   Outcome const o = with(1.25);
-  expect_parts(o.all(), {"contact overlap reached 1.25 spacings (limit 1) at t = 1 s"});
+  expect_words(o.all(), {"contact overlap reached 1.25 spacings (limit 1) at t = 1 s"});
   EXPECT_TRUE(with(0.99).of.summary.warnings.empty());
   EXPECT_DOUBLE_EQ(with(0.99).guards["overlap"]["largest"].get<double>(), 0.99);
 }
@@ -219,11 +220,11 @@ TEST(StrainDriftGuard, WarnsAndStops) {
     return run(s);
   };
   EXPECT_TRUE(with(0.04).of.summary.warnings.empty());
-  expect_parts(with(0.1).all(), {"the strain of cells differs from that of their stress by 0.1 (limit 0.05)"});
+  expect_words(with(0.1).all(), {"the strain of cells", "stress by 0.1", "limit 0.05"});
   Outcome const o = with(0.5);
   EXPECT_EQ(o.of.ending, RunStatus::failed);
   EXPECT_NEAR(o.of.summary.end_time, 0.41, 0.02);
-  expect_parts(o.of.failure, {"the strain of cells is inconsistent with their stress, strain without stress = 0.2"});
+  expect_words(o.of.failure, {"the strain of cells", "strain without stress = 0.2"});
 }
 
 // ---- loads that follow their face
@@ -249,7 +250,7 @@ double fed(double t) { return std::exp(-30 * std::min(t, 0.6)) * std::exp(30 * s
 
 TEST(FollowingLoadGuard, NamesTheLoadThatFeedsMotion) {
   Outcome const o = run_under_load(Expression("Y*min(t/0.3, 1)"), fed);
-  expect_parts(o.all(), {"kinetic energy grew ", " while every load was steady", "did work of ",
+  expect_words(o.all(), {"kinetic energy grew ", " while every load was steady", "did work of ",
                          "load \"push\" follows the face and varies along it"});
   EXPECT_NEAR(o.guards["following_load"]["from_time"].get<double>(), 0.6, 0.06);
   bool const told_early = std::any_of(o.shown.begin(), o.shown.end(),
@@ -299,7 +300,7 @@ TEST(ProximityGuard, WarnsOfABodyThatGoesThroughAnother) {
     return run(s, two_plates());
   };
   Outcome const o = by(3.9);
-  expect_parts(o.all(), {"bodies go through each other: at t = 1 s particle ", "of body 'left'", "of body 'right'",
+  expect_words(o.all(), {"bodies go through each other: at t = 1 s particle ", "of body 'left'", "of body 'right'",
                          "was 0.1 spacings from"});
   EXPECT_NEAR(o.guards["proximity"]["nearest"].get<double>(), 0.1, 1e-9);
   EXPECT_TRUE(by(1.4).of.summary.warnings.empty());  // 0.6 spacings of distance
@@ -324,7 +325,7 @@ TEST(ProximityGuard, WarnsOfABodyThatGoesThroughItself) {
     return Point{t * (radius * std::sin(angle) - x), t * radius * (1 - std::cos(angle)), 0};
   };
   Outcome const o = run(s, row(11));  // the ring closes 0.4 spacings behind its start
-  expect_parts(o.all(), {"a body goes through itself: at t = 1 s particle ", "of body 'row'", "(limit 0.5)"});
+  expect_words(o.all(), {"a body goes through itself: at t = 1 s particle ", "of body 'row'", "(limit 0.5)"});
   s.eulerian.assign(11, 1);
   EXPECT_TRUE(run(s, row(11)).of.summary.warnings.empty()) << "Eulerian particles know each other";
 }
@@ -422,7 +423,7 @@ TEST(Guards, LookAtTheStateAtWhichARelaxationEnds) {
   s.spec.output.history_every = 1;
   Outcome const o = run(s, folder / "r");
   EXPECT_EQ(o.of.summary.steps, 9);
-  expect_parts(o.all(), {"det F reached 9", "particle 6"});
+  expect_words(o.all(), {"det F reached 9", "particle 6"});
 }
 
 }  // namespace

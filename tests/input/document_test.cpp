@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/document.hpp"
+#include "support/key_words.hpp"
 #include <cmath>
 #include <ctime>
 #include <gtest/gtest.h>
@@ -7,6 +8,8 @@
 
 namespace piola {
 namespace {
+
+using test::mentions;
 
 std::string problems_of(std::string const& text) {
   Problems problems;
@@ -73,13 +76,11 @@ TEST(Document, QuantitiesWithoutQuotesAreNamed) {
 }
 
 TEST(Document, DangerousTextsAreRefusedBeforeParsing) {
-  EXPECT_EQ(problems_of(std::string("a = 1\n b\0", 9)),
-            "f:2:3: a NUL byte, which no text file holds - is this a case file?");
-  EXPECT_EQ(problems_of(std::string(5'000'000, '#')),
-            "f: the file has more than 4 MB (allowed: at most that) - is this a case file?");
+  EXPECT_TRUE(mentions(problems_of(std::string("a = 1\n b\0", 9)), {"f:2:3:", "NUL byte", "case file"}));
+  EXPECT_TRUE(mentions(problems_of(std::string(5'000'000, '#')), {"f:", "4 MB", "case file"}));
   std::string key = "a";
   for (int i = 0; i < 100; ++i) key += ".a";
-  EXPECT_EQ(problems_of(key + " = 1"), "f:1:130: a key with more than 64 dots - is this a case file?");
+  EXPECT_TRUE(mentions(problems_of(key + " = 1"), {"f:1:130:", "64 dots"}));
   EXPECT_EQ(problems_of("a = \"" + std::string(100, '.') + "\" # " + std::string(100, '.')), "");
   EXPECT_EQ(problems_of("a = '''\n" + std::string(100, '.') + "'''"), "");
   EXPECT_NE(problems_of("a = " + std::string(5000, '[') + std::string(5000, ']')), "");
@@ -87,8 +88,8 @@ TEST(Document, DangerousTextsAreRefusedBeforeParsing) {
 
 TEST(Document, NestedBracketsAreRefusedInLinearTime) {
   EXPECT_EQ(problems_of("a = " + std::string(64, '[') + std::string(64, ']')), "");
-  EXPECT_EQ(problems_of("a = 1\nb = " + std::string(65, '[') + std::string(65, ']')),
-            "f:2:69: brackets in more than 64 others - is this a case file?");
+  EXPECT_TRUE(mentions(problems_of("a = 1\nb = " + std::string(65, '[') + std::string(65, ']')),
+                       {"f:2:69:", "brackets", "64"}));
   // In quadratic time each of these takes minutes.
   for (char const* piece : {"[", "[[", "{", "=", ",", "[ 1,", "{a=", "\"", "'", "[1 m", "=1"}) {
     std::string text = "a = ";
@@ -128,12 +129,10 @@ TEST(Document, ControlCharactersAreRefused) {
 
 TEST(Document, LongTextsAndKeysAreRefusedWithoutBeingShown) {
   EXPECT_EQ(problems_of("a = \"" + std::string(10'000, 'x') + "\""), "");
-  EXPECT_EQ(
-      problems_of("[t]\na = [1, \"" + std::string(10'001, 'x') + "\"]"),
-      "f:2:9: a text of 10,001 characters (allowed: at most 10,000) - shorten it; long formulas can be divided with "
-      "'define'");
-  EXPECT_EQ(problems_of(std::string(201, 'k') + " = 1"),
-            "f:1:1: a key of 201 characters (allowed: at most 200) - shorten it");
+  EXPECT_TRUE(mentions(problems_of("[t]\na = [1, \"" + std::string(10'001, 'x') + "\"]"),
+                       {"f:2:9:", "10,001 characters", "at most 10,000", "shorten", "define"}));
+  EXPECT_TRUE(mentions(problems_of(std::string(201, 'k') + " = 1"),
+                       {"f:1:1:", "key", "201 characters", "at most 200", "shorten"}));
 }
 
 TEST(Document, WrittenTomlReadsBackTheSame) {

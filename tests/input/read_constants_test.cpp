@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // [constants]: numbers, quantities and formulas of other constants.
 #include "piola/input/sections.hpp"
+#include "support/key_words.hpp"
 #include <gtest/gtest.h>
 #include <numbers>
 
 namespace piola {
 namespace {
+
+using test::expect_words;
 
 struct Outcome {
   std::map<std::string, double> values;
@@ -19,10 +22,6 @@ Outcome read(std::string const& lines) {
   if (document) outcome.values = read_constants({*document->root.find("constants"), "constants"}, problems);
   for (std::string const& line : problems.lines()) outcome.problems += line + "\n";
   return outcome;
-}
-
-void expect_words(std::string const& text, std::vector<std::string> const& words) {
-  for (std::string const& word : words) EXPECT_NE(text.find(word), std::string::npos) << word << " in: " << text;
 }
 
 TEST(Constants, AreNumbersQuantitiesAndFormulasInAnyOrder) {
@@ -59,7 +58,7 @@ TEST(Constants, InLongChainsAreRefusedInGoodTime) {
 TEST(Constants, OfUnknownNamesPlacesAndNonsenseAreReported) {
   expect_words(read("alpha = 1\na = \"2*alpa\"\n").problems,
                {"case.toml:3:", "constants.a, formula", "alpa", "\"alpha\""});
-  expect_words(read("a = \"2*X\"\n").problems, {"constants.a depends on X (allowed: numbers and other constants)"});
+  expect_words(read("a = \"2*X\"\n").problems, {"constants.a depends on X", "other constants"});
   expect_words(read("b = 0\na = \"1/b\"\n").problems, {"constants.a is inf (allowed: a finite number)", "division"});
   expect_words(read("a = \"sqrt(-1)\"\n").problems, {"constants.a is not a number", "root of a negative"});
   expect_words(read("a = \"2*\"\n").problems, {"constants.a, formula \"2*\""});

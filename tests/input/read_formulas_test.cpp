@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Formulas that a formulation declares, with a table that no formulation has.
 #include "piola/input/sections.hpp"
+#include "support/key_words.hpp"
 #include <array>
 #include <gtest/gtest.h>
 
 namespace piola {
 namespace {
+
+using test::mentions;
 
 constexpr std::array<std::string_view, 2> state{"damage", "jacobian"};
 constexpr std::array table{FormulaInfo{"convert_when", "what turns a particle", state},
@@ -48,19 +51,15 @@ TEST(FormulasOfFormulations, UseTheirVariablesTheConstantsAndTheDefinitions) {
 TEST(FormulasOfFormulations, EachHasItsOwnVariables) {
   EXPECT_EQ(read("eulerian_where = \"X > 1\"\n").message, "");
   EXPECT_EQ(read("eulerian_where = 1\n").spec.formulas.at("eulerian_where")({}), 1);
-  EXPECT_EQ(
-      read("eulerian_where = \"damage > 1\"\n").message,
-      "case.toml:1:19: body.formulation.eulerian_where, formula \"damage > 1\": \"damage\" is not known (known: X, "
-      "Y, Z, t, pi, limit, far, sin, cos, tan, asin, acos, atan, atan2, exp, log, sqrt, abs, pow, min, max) - "
-      "use one of these or add it to define or constants");
+  EXPECT_TRUE(mentions(read("eulerian_where = \"damage > 1\"\n").message,
+                       {"case.toml:1:19: body.formulation.eulerian_where", "damage > 1", "\"damage\" is not known",
+                        "limit", "add it to define or constants"}));
 }
 
 TEST(FormulasOfFormulations, UnknownNamesGetASuggestion) {
-  EXPECT_EQ(
-      read("convert_when = \"damge > 1\"\n").message,
-      "case.toml:1:17: body.formulation.convert_when, formula \"damge > 1\": \"damge\" is not known (known: X, Y, "
-      "Z, t, pi, damage, jacobian, limit, far, sin, cos, tan, asin, acos, atan, atan2, exp, log, sqrt, abs, pow, "
-      "min, max) - did you mean \"damage\"?");
+  EXPECT_TRUE(mentions(read("convert_when = \"damge > 1\"\n").message,
+                       {"case.toml:1:17: body.formulation.convert_when", "damge > 1", "\"damge\" is not known",
+                        "damage, jacobian", "limit", "did you mean \"damage\""}));
   EXPECT_EQ(read("convert_when = true\n").message,
             "case.toml:1:16: body.formulation.convert_when is true (allowed: a formula in quotes, or a number)");
 }

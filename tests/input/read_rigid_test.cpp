@@ -3,11 +3,14 @@
 #include "piola/input/sections.hpp"
 #include "piola/model/region_checks.hpp"
 #include "piola/setup/shapes.hpp"
+#include "support/key_words.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 
 namespace piola {
 namespace {
+
+using test::mentions;
 
 using Kind = RigidShape::Kind;
 using Law = ContactRule::Law;
@@ -147,15 +150,15 @@ TEST(CheckRigid, ShapesMayTouchButNotHoldParticles) {
 TEST(CheckRigid, BodiesStandWhereTheirDisplacementPutsThem) {
   Block plate(2);
   plate.spec.bodies[0].initial_displacement = {Expression("-0.3"), Expression("1"), Expression()};
-  EXPECT_EQ(plate.repair_note(rigid("plane = { point = [-0.1, 0], normal = [1, 0] }", 2)),
-            "case.toml:2:9: the rigid shape \"wall\" holds 5 particles of body \"block\" at the start, the first at "
-            "(-0.3, 1) m (allowed: none) - move the shape or the body");
+  EXPECT_TRUE(mentions(plate.repair_note(rigid("plane = { point = [-0.1, 0], normal = [1, 0] }", 2)),
+                       {"case.toml:2:9:", "wall", "5 particles", "block", "(-0.3, 1) m", "none", "move"}));
 }
 
 TEST(CheckRigid, VelocitiesMustBeFiniteAtTheStart) {
   Block plate(2);
-  EXPECT_EQ(plate.repair_note(rigid("plane = { point = [0, 0], normal = [1, 0] }\nvelocity = [0, \"1/t\"]", 2)),
-            "case.toml:3:12: rigid.velocity[1], formula \"1/t\" is inf at t = 0 (allowed: a finite number)");
+  EXPECT_TRUE(
+      mentions(plate.repair_note(rigid("plane = { point = [0, 0], normal = [1, 0] }\nvelocity = [0, \"1/t\"]", 2)),
+               {"case.toml:3:12: rigid.velocity[1]", "1/t", "inf", "t = 0", "finite"}));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Output of `piola check` and `piola describe`, by running the program.
+#include "support/key_words.hpp"
 #include "support/places.hpp"
 #include "support/sample_case.hpp"
 #include "support/temporary_folder.hpp"
@@ -14,6 +15,9 @@
 
 namespace piola {
 namespace {
+
+using test::expect_words;
+using test::mentions;
 
 struct Answer {
   std::string text;  ///< stdout and stderr
@@ -65,8 +69,7 @@ TEST(CheckCommand, WarnsOfImplausibleNumbersAndRefusesBadOnes) {
   EXPECT_TRUE(contains(warned.text, "body \"column\": density is 1.1 kg/m^3, lighter than foam")) << warned.text;
   Answer const refused = ask("check " + folder.argument() + " --set run.end=x");
   EXPECT_EQ(refused.code, 2);
-  EXPECT_TRUE(contains(refused.text, "--set run.end=x: run.end cannot be read: \"x\" is not a number with a unit"))
-      << refused.text;
+  expect_words(refused.text, {"--set run.end=x: run.end", "\"x\"", "number with a unit"});
 }
 
 TEST(DescribeCommand, ExplainsOneThingOrListsAll) {
@@ -79,17 +82,15 @@ TEST(DescribeCommand, ExplainsOneThingOrListsAll) {
   EXPECT_EQ(unknown.code, 2);
   EXPECT_EQ(unknown.text,
             "piola: no law or material is named \"neo_hooken\" (known: neo_hookean, johnson_cook, mooney_rivlin, "
-            "elastic, iron_armco, weldox_460_e, lead, beryllium and 42 more) - "
-            "did you mean \"neo_hookean\"?\n");
+            "elastic, iron_armco, weldox_460_e, lead, beryllium and 42 more) - did you mean \"neo_hookean\"?\n");
 }
 
 TEST(DescribeCommand, TellsOfSolidsAndOfTheLibrary) {
   std::string const all = ask("describe material").text, law = ask("describe material johnson_cook").text;
-  EXPECT_TRUE(contains(
-      all, "steel_4340                  johnson_cook: 4340 steel (hardness Rockwell C 30), with shock and damage\n"));
+  expect_words(all, {"steel_4340                  johnson_cook: 4340 steel ", "shock and damage\n"});
   EXPECT_TRUE(contains(all, "compressible_neo_hookean\n"));
-  EXPECT_TRUE(contains(law, "one of elastic, stiffened_gas, mie_grueneisen, polynomial; default: \"elastic\"")) << law;
-  EXPECT_TRUE(contains(law, "D1 of the fracture strain; only with damage = \"johnson_cook\"\n")) << law;
+  expect_words(law, {"elastic, stiffened_gas, mie_grueneisen, polynomial", "default: \"elastic\""});
+  expect_words(law, {"D1 of the fracture strain", "only with damage = \"johnson_cook\"\n"});
   EXPECT_TRUE(contains(law, "above 0; default: no limit\n")) << law;
   Answer const steel = ask("describe material steel_4340");
   EXPECT_EQ(steel.code, 0);
@@ -113,7 +114,7 @@ TEST(DescribeCommand, DescribesTheLibrary) {
   for (std::string const kind : {"library", "material"}) {
     Answer const renamed = ask("describe " + kind + " steel_adaptle_3_3");
     EXPECT_EQ(renamed.code, 2);
-    EXPECT_EQ(renamed.text, "piola: the material \"steel_adaptle_3_3\" is now \"steel_linear_hardening\"\n");
+    EXPECT_TRUE(mentions(renamed.text, {"steel_adaptle_3_3", "is now", "steel_linear_hardening"}));
   }
   std::ifstream file(testing::source_folder() + "/docs/user/materials.md");
   std::string const page{std::istreambuf_iterator<char>(file), {}};

@@ -41,11 +41,9 @@ TEST(ShapeMessages, GoodOnesSayNothing) {
         "spacing = 0.2, formula = { inside = \"X^2 + Y^2 + Z^2 < 1\", min = [-1.1, -1.1, -1.1], max = [1.1, 1.1, 1.1] "
         "}",
         "spacing = 0.2, intersection = [{ sphere = { centre = [0, 0, 0], radius = 1 } }, { half_space = { point = [0, "
-        "0, "
-        "0], normal = [0, 0, 2] } }]",
+        "0, 0], normal = [0, 0, 2] } }]",
         "spacing = 0.2, box = { min = [0, 0, 0], max = [1, 1, 1] }, transform = { rotate = [{ angle = \"30 degree\" }, "
-        "{ "
-        "axis = [1, 0, 0], angle = 1 }], move = [1, 0, 0], scale = 2 }"})
+        "{ axis = [1, 0, 0], angle = 1 }], move = [1, 0, 0], scale = 2 }"})
     EXPECT_EQ(message_of(with_shape(good)), "") << good;
 }
 

@@ -2,12 +2,16 @@
 // Messages about ties, word for word.
 #include "piola/model/case_particles.hpp"
 #include "piola/simulation/build.hpp"
+#include "support/key_words.hpp"
 #include "support/sample_case.hpp"
 #include <gtest/gtest.h>
 
 namespace piola {
 namespace {
 
+using test::expect_words;
+using test::mentions;
+using test::mentions_each;
 using test::message_of;
 using test::replaced;
 
@@ -37,16 +41,12 @@ std::string const both = "between = [\"lower\", \"upper\"]\n";
 
 TEST(TieMessages, ATieNamesTwoBodies) {
   EXPECT_EQ(reported(both), "");
-  EXPECT_EQ(reported(""),
-            "case.toml:14:1: tie needs \"between\" (names of two bodies, or of a body and a rigid shape) - add between "
-            "= [...]");
-  EXPECT_EQ(reported("between = [\"lower\"]"), "case.toml:15:11: tie.between is a list of 1 (allowed: a list of 2)");
-  EXPECT_EQ(reported("between = [\"lower\", \"uper\"]"),
-            "case.toml:15:21: tie.between[1] is \"uper\" (allowed: lower, upper) - did you mean \"upper\"?");
-  EXPECT_EQ(
-      reported("between = [\"lower\", \"lower\"]"),
-      "case.toml:15:11: tie.between names \"lower\" twice (allowed: two bodies, or a body and a rigid shape) - name "
-      "another body");
+  EXPECT_TRUE(mentions(reported(""), {"case.toml:14:1: tie", "between", "names of two bodies", "add between"}));
+  EXPECT_TRUE(mentions(reported("between = [\"lower\"]"), {"case.toml:15:11: tie.between", "list of 1", "list of 2"}));
+  EXPECT_TRUE(mentions(reported("between = [\"lower\", \"uper\"]"),
+                       {"case.toml:15:21: tie.between[1]", "uper", "lower, upper", "did you mean \"upper\""}));
+  EXPECT_TRUE(mentions(reported("between = [\"lower\", \"lower\"]"),
+                       {"case.toml:15:11: tie.between", "\"lower\" twice", "two bodies", "another body"}));
 }
 
 TEST(TieMessages, ConditionsAreNumbers) {
@@ -64,16 +64,14 @@ std::string on_floor(std::string const& between, std::string const& height = "0"
 TEST(TieMessages, RigidShapesHoldBodies) {
   EXPECT_EQ(message_of(on_floor("[\"lower\", \"floor\"]")), "");
   EXPECT_EQ(message_of(on_floor("[\"floor\", \"lower\"]")), "");
-  EXPECT_EQ(message_of(on_floor("[\"floor\", \"ball\"]")),
-            "case.toml:15:11: tie.between names two rigid shapes (allowed: two bodies, or a body and a rigid shape) - "
-            "name a body");
-  EXPECT_EQ(message_of(on_floor("[\"lower\", \"flor\"]")),
-            "case.toml:15:21: tie.between[1] is \"flor\" (allowed: lower, upper, floor, ball) - did you mean "
-            "\"floor\"?");
-  EXPECT_EQ(message_of(on_floor("[\"lower\", \"floor\"]", "\"-0.7 mm\"")),
-            "case.toml:15:11: the tie \"tie_0\" holds nothing: between \"lower\" and \"floor\" the nearest surfaces "
-            "that face each other are 0.7 spacings apart, as a gap or an overlap (allowed: half a spacing) - let the "
-            "bodies touch");
+  EXPECT_TRUE(mentions(message_of(on_floor("[\"floor\", \"ball\"]")),
+                       {"case.toml:15:11: tie.between", "two rigid shapes", "two bodies", "name a body"}));
+  EXPECT_TRUE(
+      mentions(message_of(on_floor("[\"lower\", \"flor\"]")),
+               {"case.toml:15:21: tie.between[1]", "flor", "lower, upper, floor, ball", "did you mean \"floor\""}));
+  EXPECT_TRUE(mentions(message_of(on_floor("[\"lower\", \"floor\"]", "\"-0.7 mm\"")),
+                       {"case.toml:15:11:", "tie_0", "holds nothing", "lower", "floor", "0.7 spacings apart",
+                        "half a spacing", "touch"}));
   EXPECT_NE(message_of(on_floor("[\"floor\", \"lower\"]", "0", "strength = \"20 MPa\"\ntoughness = \"100 J/m^2\"\n"))
                 .find("the tie \"tie_0\" is too soft for its strength"),
             std::string::npos);
@@ -87,30 +85,25 @@ TEST(TieMessages, BodiesWithAContactOfTheirOwnAreHeldBySurfaces) {
       "material = { law = \"neo_hookean\", density = 1000, youngs_modulus = \"1 GPa\", poissons_ratio = 0.3 }\n"
       "formulation = { name = \"nodal\" }\n[[body]]\nname = \"upper\"";
   std::string const text = replaced(on_floor("[\"lower\", \"floor\"]"), rubber, solid);
-  EXPECT_NE(message_of(text).find("case.toml:15:11: the tie \"tie_0\" holds body \"lower\" to a rigid shape from which "
-                                  "adaptle keeps it by a contact of its own (allowed: contact by surfaces) - set "
-                                  "contact.law = \"surface\""),
-            std::string::npos)
-      << message_of(text);
+  expect_words(message_of(text),
+               {"case.toml:15:11: the tie \"tie_0\"", "body \"lower\"", "adaptle", "set contact.law = \"surface\""});
   EXPECT_EQ(message_of(text + "[contact]\nlaw = \"surface\"\n"), "");
 }
 
 TEST(TieMessages, NamesOfColumnsAreTheirOwn) {
-  EXPECT_EQ(reported("name = \"glue\"\n" + both + "[[tie]]\nname = \"glue\"\n" + both),
-            "case.toml:18:8: the name \"glue\" is taken by another tie (allowed: one tie per name) - choose another "
-            "name");
+  EXPECT_TRUE(mentions(reported("name = \"glue\"\n" + both + "[[tie]]\nname = \"glue\"\n" + both),
+                       {"case.toml:18:8:", "glue", "taken by another tie", "another name"}));
 }
 
 TEST(TieMessages, LawsOfFailureAreWhole) {
-  EXPECT_EQ(reported(both + "strength = \"1 MPa\""),
-            "case.toml:14:1: tie needs \"toughness\" (energy that failure takes per area) - add toughness = \"100 "
-            "J/m^2\"");
-  EXPECT_EQ(reported(both + "toughness = 100\nshear_weight = 2"),
-            "case.toml:16:13: tie.toughness is used only by a tie with a strength - remove it\n"
-            "case.toml:17:16: tie.shear_weight is used only by a tie with a strength - remove it");
-  EXPECT_EQ(reported(both + "strength = \"1 MPa\"\ntoughness = \"-5 J/m^2\"\nstiffness = 0"),
-            "case.toml:17:13: tie.toughness is -5 J/m^2 (allowed: above 0)\n"
-            "case.toml:18:13: tie.stiffness is 0 (allowed: above 0)");
+  EXPECT_TRUE(mentions(reported(both + "strength = \"1 MPa\""),
+                       {"case.toml:14:1: tie", "toughness", "energy", "area", "add toughness = \"100 J/m^2\""}));
+  EXPECT_TRUE(mentions_each(reported(both + "toughness = 100\nshear_weight = 2"),
+                            {{"case.toml:16:13: tie.toughness", "only by a tie with a strength", "remove"},
+                             {"case.toml:17:16: tie.shear_weight", "only by a tie with a strength", "remove"}}));
+  EXPECT_TRUE(mentions_each(
+      reported(both + "strength = \"1 MPa\"\ntoughness = \"-5 J/m^2\"\nstiffness = 0"),
+      {{"case.toml:17:13: tie.toughness", "-5 J/m^2", "above 0"}, {"case.toml:18:13: tie.stiffness", "0", "above 0"}}));
   EXPECT_EQ(reported(both + "strength = \"1 MPa\"\ntoughness = \"100 J/m^2\"\nshear_weight = 0.5"), "");
 }
 
@@ -123,18 +116,15 @@ TEST(TieMessages, TheElasticBranchIsShort) {
 }
 
 TEST(TieMessages, ATieHoldsSomething) {
-  EXPECT_EQ(message_of(stack(both, "\"10.7 mm\"", "\"20.7 mm\"")),
-            "case.toml:15:11: the tie \"tie_0\" holds nothing: between \"lower\" and \"upper\" the nearest surfaces "
-            "that face each other are 0.7 spacings apart, as a gap or an overlap (allowed: half a spacing) - let the "
-            "bodies touch");
-  EXPECT_EQ(message_of(stack(both, "\"15 mm\"", "\"20 mm\"")),
-            "case.toml:15:11: the tie \"tie_0\" holds nothing: between \"lower\" and \"upper\" no surfaces face each "
-            "other within two spacings (allowed: half a spacing) - let the bodies touch");
-  EXPECT_EQ(
-      reported(both + "where = \"X > 1\""),
-      "case.toml:15:11: the tie \"tie_0\" holds nothing: between \"lower\" and \"upper\", and where its condition "
-      "holds, no surfaces face each other within two spacings (allowed: half a spacing) - let the bodies touch, "
-      "or change where");
+  EXPECT_TRUE(mentions(message_of(stack(both, "\"10.7 mm\"", "\"20.7 mm\"")),
+                       {"case.toml:15:11:", "tie_0", "holds nothing", "lower", "upper", "0.7 spacings apart",
+                        "half a spacing", "touch"}));
+  EXPECT_TRUE(mentions(message_of(stack(both, "\"15 mm\"", "\"20 mm\"")),
+                       {"case.toml:15:11:", "tie_0", "holds nothing", "lower", "upper", "no surfaces face each other",
+                        "two spacings", "half a spacing", "touch"}));
+  EXPECT_TRUE(mentions(reported(both + "where = \"X > 1\""),
+                       {"case.toml:15:11:", "tie_0", "holds nothing", "lower", "upper", "condition",
+                        "no surfaces face each other", "two spacings", "change where"}));
   EXPECT_EQ(message_of(stack(both, "\"10.4 mm\"", "\"20.4 mm\"")), "") << "a small gap is glue";
 }
 
@@ -144,12 +134,8 @@ TEST(TieMessages, BodiesNeedSurfaces) {
                "[\"10 mm\", \"20 mm\"] }, spacing = \"1 mm\" }");
   std::string const mirrored = on_faces + "[[mirror]]\nbody = \"upper\"\nface = \"-x\"\n";
   std::string const held = message_of(mirrored + "antisymmetric = true\n[contact]\nlaw = \"none\"\n");
-  EXPECT_NE(
-      held.find(
-          "case.toml:15:11: the tie \"tie_0\" cannot hold body \"upper\": it has antisymmetric mirror planes (allowed: "
-          "bodies of nodal, jst_sph, taylor_sph and total-Lagrangian adaptle without antisymmetric mirrors)"),
-      std::string::npos)
-      << held;
+  expect_words(held, {"case.toml:15:11: the tie \"tie_0\" cannot hold body \"upper\"", "antisymmetric mirror planes",
+                      "nodal, jst_sph, taylor_sph"});
   std::string const thin = replaced(stack(both), "\"20 mm\"] }, spacing", "\"11 mm\"] }, spacing");
   EXPECT_NE(message_of(thin).find("is too thin"), std::string::npos) << message_of(thin);
 }

@@ -2,12 +2,15 @@
 #include "piola/model/body_properties.hpp"
 #include "piola/materials/library.hpp"
 #include "piola/model/case_particles.hpp"
+#include "support/key_words.hpp"
 #include "support/sample_case.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
 
 namespace piola {
 namespace {
+
+using test::mentions;
 
 struct Looked {
   CaseSpec spec;
@@ -52,13 +55,10 @@ TEST(CaseFacts, SolidsInRateFormHaveMassAndWavesToo) {
 TEST(CaseFacts, SlipsOfUnitsAreNoticed) {
   EXPECT_EQ(look(test::sample_with("1100 kg/m^3", "1.1 kg/m^3")).warnings.at(0),
             "case.toml:10:45: body \"column\": density is 1.1 kg/m^3, lighter than foam (solids have 100 to 20000 "
-            "kg/m^3) - was g/cm^3 "
-            "meant?");
+            "kg/m^3) - was g/cm^3 meant?");
   auto const soft = look(test::sample_with("17 MPa", "17 Pa")).warnings;
-  EXPECT_EQ(soft.at(0),
-            "case.toml:10:77: body \"column\": youngs_modulus is 17 Pa, softer than any jelly (1 kPa to 1 TPa is "
-            "usual) - was MPa or "
-            "GPa meant?");
+  EXPECT_TRUE(mentions(
+      soft.at(0), {"case.toml:10:77:", "column", "youngs_modulus", "17 Pa", "softer", "1 kPa to 1 TPa", "MPa or GPa"}));
   EXPECT_NE(soft.at(1).find("times the speed of pressure waves, 0.2421 m/s"), std::string::npos);
   EXPECT_EQ(
       look(test::sample_with("0.5 s", "0.5 us")).warnings.at(0),
@@ -69,9 +69,7 @@ TEST(CaseFacts, SlipsOfUnitsAreNoticed) {
 
 TEST(CaseFacts, CoarseAndUnevenBodiesAreNoticed) {
   auto const thin = look(test::sample_with("[5, 25, 5]", "[5, 25, 2]")).warnings;
-  EXPECT_EQ(thin.at(0),
-            "case.toml:9:9: body \"column\": only 2 particles across in z (3 or more are needed to bend) - make the "
-            "spacing smaller");
+  EXPECT_TRUE(mentions(thin.at(0), {"case.toml:9:9:", "column", "2 particles", "z", "3 or more", "spacing smaller"}));
   EXPECT_NE(thin.at(1).find("the spacings differ by a factor of 4"), std::string::npos);
 }
 

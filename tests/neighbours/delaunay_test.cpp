@@ -4,12 +4,14 @@
 #include "piola/neighbours/mesh_cells.hpp"
 #include "piola/neighbours/simplex.hpp"
 #include "neighbours/cell_checks.hpp"
+#include "support/key_words.hpp"
 #include <limits>
 
 namespace piola {
 namespace {
 
 using namespace testing;
+using test::mentions;
 
 Points random_points(std::size_t count, int dimension, std::uint32_t seed) {
   Random random(seed);
@@ -160,17 +162,16 @@ TEST(Delaunay, OfOneSimplexIsThisSimplex) {
 }
 
 TEST(Delaunay, RefusesPointsWithoutCellsInWords) {
-  EXPECT_EQ(message({{0, 0, 0}, {1, 0, 0}}, 2),
-            "cells between points: only 2 points (at least 3 in 2D) - give the body more particles");
-  EXPECT_EQ(message({{1, 0, 0}}, 1),
-            "cells between points: only 1 point (at least 2 in 1D) - give the body more particles");
-  EXPECT_EQ(message({}, 3), "cells between points: only 0 points (at least 4 in 3D) - give the body more particles");
-  EXPECT_EQ(message({{0, 0, 0}, {1, 0.1, 0}, {2, 0.2, 0}, {3, 0.3, 0}}, 2),
-            "cells between points: all 4 points lie on one line (cells in 2D need points beside it) - use a problem in "
-            "1D or give the body a second layer");
-  EXPECT_EQ(message(turned(box({1, 1, 0}, {5, 5, 1}, 2).X, 3), 3),
-            "cells between points: all 25 points lie in one plane (cells in 3D need points beside it) - use a problem "
-            "in 2D or give the body a second layer");
+  EXPECT_TRUE(mentions(message({{0, 0, 0}, {1, 0, 0}}, 2),
+                       {"cells between points", "only 2 points", "at least 3 in 2D", "more particles"}));
+  EXPECT_TRUE(mentions(message({{1, 0, 0}}, 1),
+                       {"cells between points", "only 1 point", "at least 2 in 1D", "more particles"}));
+  EXPECT_TRUE(
+      mentions(message({}, 3), {"cells between points", "only 0 points", "at least 4 in 3D", "more particles"}));
+  EXPECT_TRUE(mentions(message({{0, 0, 0}, {1, 0.1, 0}, {2, 0.2, 0}, {3, 0.3, 0}}, 2),
+                       {"cells between points", "all 4 points", "one line", "1D", "second layer"}));
+  EXPECT_TRUE(mentions(message(turned(box({1, 1, 0}, {5, 5, 1}, 2).X, 3), 3),
+                       {"cells between points", "all 25 points", "one plane", "2D", "second layer"}));
   Points points = unit_box(2, 5).X;
   points.push_back(points[7]);
   points.push_back({points[7][0] + 0.5e-9, points[7][1], 0});
@@ -179,9 +180,8 @@ TEST(Delaunay, RefusesPointsWithoutCellsInWords) {
             "cells between points: 3 points of 28 at the place of another one, the first ones are numbers 3 and 27 at "
             "(0.75, 0) (points must be 1e-9 of their extent apart) - leave one of them out");
   points[9][1] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(message(points, 2),
-            "cells between points: 1 point without a finite position, the first one number 9 (all must be finite) - "
-            "look for what moved it");
+  EXPECT_TRUE(mentions(message(points, 2),
+                       {"cells between points", "1 point without a finite position", "number 9", "finite"}));
 }
 
 TEST(Delaunay, TakesPointsThatNearlyCoincideOrLieNearlyOnALine) {

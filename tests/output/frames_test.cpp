@@ -223,8 +223,7 @@ TEST(Files, SayThatTheDiskIsFull) {
   std::string const text = write_error_text("results/frames/000003.hdf", ENOSPC);
   EXPECT_EQ(text,
             "results/frames/000003.hdf: cannot be written, No space left on device - free some space or give another "
-            "folder with --out; "
-            "what was written before is intact");
+            "folder with --out; what was written before is intact");
 }
 
 }  // namespace

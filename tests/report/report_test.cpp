@@ -48,24 +48,24 @@ TEST(Spread, TakesTheFirstTheLastAndSomeEvenlyBetween) {
 TEST(FrameStatistics, KnowsTheBoxAndTheExtremesOfEachFrame) {
   Results const results;
   RunFolder const run = open_run(results.run());
-  FrameStatistics const survey = survey_frames(run, {0, 2, 4}, {"Velocity"});
-  EXPECT_EQ(survey.particles, 16u);
-  EXPECT_EQ(survey.dimension, 2);
-  EXPECT_EQ(survey.outside, 0u);
-  ASSERT_EQ(survey.fields.size(), 1u);
-  ASSERT_EQ(survey.fields[0].extremes.size(), 3u);
+  FrameStatistics const statistics = read_statistics(run, {0, 2, 4}, {"Velocity"});
+  EXPECT_EQ(statistics.particles, 16u);
+  EXPECT_EQ(statistics.dimension, 2);
+  EXPECT_EQ(statistics.outside, 0u);
+  ASSERT_EQ(statistics.fields.size(), 1u);
+  ASSERT_EQ(statistics.fields[0].extremes.size(), 3u);
   FrameReader const frame(run.frames[2].second);
   auto const v = frame.values("Velocity");
   double most = 0;
   for (std::size_t i = 0; i < 16; ++i) most = std::max<double>(most, std::hypot(v[3 * i], v[3 * i + 1]));
-  EXPECT_NEAR(survey.fields[0].extremes[1][1], most, 1e-6 * most);
+  EXPECT_NEAR(statistics.fields[0].extremes[1][1], most, 1e-6 * most);
   for (auto const& point : frame.positions())
     for (std::size_t c = 0; c < 3; ++c) {
-      EXPECT_LE(survey.low[c], point[c]);
-      EXPECT_GE(survey.high[c], point[c]);
+      EXPECT_LE(statistics.low[c], point[c]);
+      EXPECT_GE(statistics.high[c], point[c]);
     }
-  EXPECT_EQ(survey.radius.size(), 1u);
-  EXPECT_GT(survey.radius[0], 0.5);
+  EXPECT_EQ(statistics.radius.size(), 1u);
+  EXPECT_GT(statistics.radius[0], 0.5);
 }
 
 TEST(FrameStatistics, CutsTheBoxWhereOneParticleFliesFarAndSaysSo) {
@@ -76,11 +76,11 @@ TEST(FrameStatistics, CutsTheBoxWhereOneParticleFliesFarAndSaysSo) {
   std::atomic<int> const none{0};
   run_case(s, {.folder = folder / "r"}, listener, none);
   RunFolder const run = open_run(folder / "r");
-  FrameStatistics const survey = survey_frames(run, {0, 1}, {});
-  EXPECT_LT(survey.high[0], 200);
-  EXPECT_EQ(survey.outside, 1u);
-  Lattice const lattice = Lattice::of(survey.low, survey.high, 14);
-  FrameCodes const codes = codes_of(FrameReader(run.frames[0].second), survey, lattice, 0, 1);
+  FrameStatistics const statistics = read_statistics(run, {0, 1}, {});
+  EXPECT_LT(statistics.high[0], 200);
+  EXPECT_EQ(statistics.outside, 1u);
+  Lattice const lattice = Lattice::of(statistics.low, statistics.high, 14);
+  FrameCodes const codes = codes_of(FrameReader(run.frames[0].second), statistics, lattice, 0, 1);
   EXPECT_EQ(codes.x[0][3599], lattice.missing());
   EXPECT_NE(codes.x[0][3598], lattice.missing());
 }
@@ -88,13 +88,13 @@ TEST(FrameStatistics, CutsTheBoxWhereOneParticleFliesFarAndSaysSo) {
 TEST(Plan, GivesUpFieldsThenFramesThenBitsThenParticles) {
   Results const results(40);
   RunFolder const run = open_run(results.run());
-  FrameStatistics const survey = survey_frames(run, {0, 1, 2, 3, 4}, {"Velocity", "Displacement", "Pressure"});
+  FrameStatistics const statistics = read_statistics(run, {0, 1, 2, 3, 4}, {"Velocity", "Displacement", "Pressure"});
   Plan const all{.frames = {0, 1, 2, 3, 4}, .fields = 3};
   auto const plan = [&](double bytes) {
-    return fitting_plan(run, survey, all, {.bytes = bytes, .least_fields = 1}, {});
+    return fitting_plan(run, statistics, all, {.bytes = bytes, .least_fields = 1}, {});
   };
   EXPECT_EQ(plan(1e9).fields, 3u);
-  EXPECT_TRUE(plan_notes(plan(1e9), all, survey, 1e9).empty());
+  EXPECT_TRUE(plan_notes(plan(1e9), all, statistics, 1e9).empty());
   Plan last = plan(1e9);
   bool fields_went = false, bits_went = false, particles_went = false;
   for (double bytes = 1e5; bytes > 300; bytes /= 1.2) {
@@ -111,7 +111,7 @@ TEST(Plan, GivesUpFieldsThenFramesThenBitsThenParticles) {
     last = now;
   }
   EXPECT_TRUE(fields_went && bits_went && particles_went);
-  auto const notes = plan_notes(last, all, survey, 300);
+  auto const notes = plan_notes(last, all, statistics, 300);
   ASSERT_EQ(notes.size(), 1u);
   for (char const* part : {"1 of 3 fields", "12 bits", "one particle in", "300 B"})
     EXPECT_NE(notes[0].find(part), std::string::npos) << part << " in " << notes[0];
@@ -120,11 +120,11 @@ TEST(Plan, GivesUpFieldsThenFramesThenBitsThenParticles) {
 TEST(Plan, LeavesBallsRoundBeforeAllElse) {
   Results const results(40);
   RunFolder const run = open_run(results.run());
-  FrameStatistics const survey = survey_frames(run, {0, 4}, {"Velocity"});
+  FrameStatistics const statistics = read_statistics(run, {0, 4}, {"Velocity"});
   Plan const all{.frames = {0, 1}, .fields = 1, .stretched = true};
-  Plan const less = fitting_plan(run, survey, all, {.bytes = 100, .least_fields = 1}, {});
+  Plan const less = fitting_plan(run, statistics, all, {.bytes = 100, .least_fields = 1}, {});
   EXPECT_FALSE(less.stretched);
-  EXPECT_NE(plan_notes(less, all, survey, 100).at(0).find("round balls"), std::string::npos);
+  EXPECT_NE(plan_notes(less, all, statistics, 100).at(0).find("round balls"), std::string::npos);
 }
 
 TEST(PageSurfaces, PackNumbersBelowTwoToTheThirtyTwo) {
@@ -136,11 +136,11 @@ TEST(PageSurfaces, PackNumbersBelowTwoToTheThirtyTwo) {
 TEST(Plan, LetsBallsGrowWhereSomeAreLeftOut) {
   Results const results;
   RunFolder const run = open_run(results.run());
-  FrameStatistics const survey = survey_frames(run, {0, 4}, {});
-  auto const about = about_frames(run, survey, {.frames = {0, 1}, .every = 4});
+  FrameStatistics const statistics = read_statistics(run, {0, 4}, {});
+  auto const about = about_frames(run, statistics, {.frames = {0, 1}, .every = 4});
   EXPECT_EQ(about["particles"], 4);
-  EXPECT_DOUBLE_EQ(about["bodies"][0]["radius"].get<double>(), 2 * survey.radius[0]);  // a plate: two dimensions
-  EXPECT_EQ(about["bodies"][0]["name"], "body 0");                                     // its case cannot be read
+  EXPECT_DOUBLE_EQ(about["bodies"][0]["radius"].get<double>(), 2 * statistics.radius[0]);  // a plate: two dimensions
+  EXPECT_EQ(about["bodies"][0]["name"], "body 0");                                         // its case cannot be read
 }
 
 TEST(Report, KeepsItsBudget) {

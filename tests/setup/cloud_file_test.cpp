@@ -4,6 +4,7 @@
 #include "piola/setup/cloud_checks.hpp"
 #include "piola/setup/shapes.hpp"
 #include "support/fake_formulation.hpp"
+#include "support/key_words.hpp"
 #include "support/temporary_folder.hpp"
 #include <chrono>
 #include <fmt/format.h>
@@ -13,6 +14,8 @@
 namespace piola {
 namespace {
 
+using test::mentions;
+using test::mentions_each;
 using testing::TemporaryFolder;
 using Words = std::vector<std::string>;
 
@@ -95,14 +98,14 @@ TEST(CloudTable, GivesTheRowsOfOneBody) {
   auto const [all, none] = read_text(text, {.total_volume = 18});
   EXPECT_EQ(none, Words{});
   EXPECT_EQ(all.X.size(), 18U);
-  EXPECT_EQ(all.notes, Words{"cloud.csv: the 2 bodies in it are taken as one; with a body, only its points are"});
+  EXPECT_TRUE(mentions_each(all.notes, {{"cloud.csv:", "2 bodies", "taken as one", "body"}}));
   auto const [right, still_none] = read_text(text, {.total_volume = 9, .body = "the, right"});
   EXPECT_EQ(still_none, Words{});
   EXPECT_EQ(right.X.size(), 9U);
   EXPECT_EQ(right.min[0], 3);
   EXPECT_EQ(right.notes, Words{});
-  EXPECT_EQ(read_text(text, {.total_volume = 9, .body = "lef"}).problems,
-            Words{"cloud.csv: has no rows of the body \"lef\" (it has \"left, the, right\") - did you mean \"left\"?"});
+  EXPECT_TRUE(mentions_each(read_text(text, {.total_volume = 9, .body = "lef"}).problems,
+                            {{"cloud.csv:", "no rows", "\"lef\"", "\"left, the, right\"", "did you mean \"left\""}}));
 }
 
 TEST(CloudTable, SharesTheTotalVolumeEqually) {
@@ -119,66 +122,43 @@ TEST(CloudTable, NotesColumnsThatAreNotUsed) {
 }
 
 struct BadTable {
-  std::string text, problem;
+  std::string text;
+  test::KeyWords words;
   CloudOptions options = {};
 };
 
 TEST(CloudMessages, SayWhatIsWrongWithTheHeader) {
   for (BadTable const& bad : std::vector<BadTable>{
-           {"",
-            "cloud.csv: is empty (expected a header such as \"x [mm],y [mm],z [mm]\" and a row for each point) - "
-            "give another file"},
-           {"\n# only this\n",
-            "cloud.csv: is empty (expected a header such as \"x [mm],y [mm],z [mm]\" and a row for "
-            "each point) - give another file"},
-           {"# x,y\n1,2\n",
-            "cloud.csv:2: \"1\" stands where the header should be (expected a line such as \"x [mm],y "
-            "[mm],z [mm],volume [mm^3]\") - write the names of the columns above the numbers, without #"},
-           {"x y z\n1 2 3\n",
-            "cloud.csv:1: has no column \"x\" (columns: \"x y z\"; expected a line such as \"x [mm],y "
-            "[mm],z [mm],volume [mm^3]\", in 2D without z) - name the columns so"},
-           {"x,z\n1,2\n",
-            "cloud.csv:1: has no column \"y\" (columns: \"x, z\"; expected a line such as \"x [mm],y "
-            "[mm],z [mm],volume [mm^3]\", in 2D without z) - name the columns so"},
-           {"x,y,X\n", "cloud.csv:1:5: the column \"X\" stands twice - remove one"},
-           {"x [mm,y\n",
-            "cloud.csv:1:1: the unit in \"x [mm\" cannot be read (expected one in brackets, such as \"x "
-            "[mm]\") - write it so, or leave it out"},
-           {"x [kg],y [mm]\n", "cloud.csv:1:1: \"kg\" is not a unit of \"x\" (expected one such as mm) - correct it"},
-           {"x [mm],y [mm], volume [mm^3]\n",
-            "cloud.csv:1:16: \"mm^3\" is not a unit of \"volume\" (expected one such as mm^2) - correct it"},
-           {"x [mm],y [mm],volume\n",
-            "cloud.csv:1: the column \"volume\" has no unit, others have one - give every "
-            "length and volume a unit, or none"},
+           {"", {"cloud.csv: ", "empty", "x [mm],y [mm],z [mm]", "another file"}},
+           {"\n# only this\n", {"cloud.csv: ", "empty", "x [mm],y [mm],z [mm]", "another file"}},
+           {"# x,y\n1,2\n", {"cloud.csv:2: ", "\"1\"", "header", "x [mm],y [mm],z [mm],volume [mm^3]", "without #"}},
+           {"x y z\n1 2 3\n", {"cloud.csv:1: ", "no column \"x\"", "\"x y z\"", "in 2D without z", "name"}},
+           {"x,z\n1,2\n", {"cloud.csv:1: ", "no column \"y\"", "\"x, z\"", "in 2D without z", "name"}},
+           {"x,y,X\n", {"cloud.csv:1:5: ", "column \"X\"", "twice", "remove one"}},
+           {"x [mm,y\n", {"cloud.csv:1:1: ", "unit", "\"x [mm\"", "such as \"x [mm]\"", "leave it out"}},
+           {"x [kg],y [mm]\n", {"cloud.csv:1:1: ", "\"kg\"", "not a unit of \"x\"", "such as mm"}},
+           {"x [mm],y [mm], volume [mm^3]\n", {"cloud.csv:1:16: ", "\"mm^3\"", "not a unit of \"volume\"", "mm^2"}},
+           {"x [mm],y [mm],volume\n", {"cloud.csv:1: ", "\"volume\" has no unit", "a unit, or none"}},
            {"x [mm],y [mm]\n",
-            "cloud.csv:1: gives units, and the case gives one for this file - leave out one of them",
+            {"cloud.csv:1: ", "units", "the case gives one", "leave out one"},
             {.length_unit = 1e-3}},
-           {"x,\"y\n1,2\n", "cloud.csv:1:3: the quotation mark is not closed - close it"},
-           {std::string("\xff\xfex\0,\0", 6),
-            "cloud.csv: is a text in UTF-16 (expected UTF-8) - save it as \"CSV "
-            "UTF-8\""},
-           {std::string("x,y\n\0", 5),
-            "cloud.csv: is no text (it holds a NUL byte) - give a CSV file, or a frame whose "
-            "name ends in .hdf"}})
-    EXPECT_EQ(read_text(bad.text, bad.options).problems, Words{bad.problem}) << bad.text;
+           {"x,\"y\n1,2\n", {"cloud.csv:1:3: ", "quotation mark", "not closed"}},
+           {std::string("\xff\xfex\0,\0", 6), {"cloud.csv: ", "UTF-16", "expected UTF-8", "CSV UTF-8"}},
+           {std::string("x,y\n\0", 5), {"cloud.csv: ", "no text", "NUL byte", ".hdf"}}})
+    EXPECT_TRUE(mentions_each(read_text(bad.text, bad.options).problems, {bad.words})) << bad.text;
 }
 
 TEST(CloudMessages, NameLineAndColumnOfBadRows) {
   auto const problems = read_text("x,y,volume\n# good\n0,0,1\n\n1, abc,1\n1,2\n1,2,3,4\n1,1e999,1\n\"1,1,1\n").problems;
-  EXPECT_EQ(problems,
-            (Words{"cloud.csv:5:4: \"abc\" is not a number (expected one such as 0.0015) - correct or remove "
-                   "the row",
-                   "cloud.csv:6: has 2 fields (expected 3: \"x, y, volume\") - add what is missing, or remove "
-                   "the row",
-                   "cloud.csv:7: has 4 fields (expected 3: \"x, y, volume\") - remove the rest; numbers have "
-                   "a decimal point, no comma",
-                   "cloud.csv:8:3: \"1e999\" cannot be held as a number (at most 1.8e308, at least 5e-324) - "
-                   "correct or remove the row",
-                   "cloud.csv:9:1: the quotation mark is not closed - close it"}));
-  EXPECT_EQ(read_text("x;y\n1,5;2\n").problems, Words{"cloud.csv:2:1: \"1,5\" is not a number (expected one such as "
-                                                      "0.0015) - correct or remove the row"});
-  EXPECT_EQ(read_text("x;y\n1;5;2\n").problems,
-            Words{"cloud.csv:2: has 3 fields (expected 2: \"x, y\") - remove the rest"});
+  EXPECT_TRUE(mentions_each(problems, {{"cloud.csv:5:4: ", "\"abc\"", "not a number", "such as 0.0015"},
+                                       {"cloud.csv:6: ", "2 fields", "expected 3", "\"x, y, volume\"", "missing"},
+                                       {"cloud.csv:7: ", "4 fields", "expected 3", "\"x, y, volume\"", "decimal point"},
+                                       {"cloud.csv:8:3: ", "\"1e999\"", "at most 1.8e308, at least 5e-324"},
+                                       {"cloud.csv:9:1: ", "quotation mark", "not closed"}}));
+  EXPECT_TRUE(mentions_each(read_text("x;y\n1,5;2\n").problems,
+                            {{"cloud.csv:2:1:", "1,5", "not a number", "0.0015", "correct or remove"}}));
+  EXPECT_TRUE(mentions_each(read_text("x;y\n1;5;2\n").problems,
+                            {{"cloud.csv:2:", "3 fields", "expected 2", "x, y", "remove the rest"}}));
   for (char const* number : {"", "+-1", "1e", "0x10", "1 2"})
     EXPECT_EQ(read_text(fmt::format("x,y\n{},1\n", number)).problems.size(), 1U) << number;
 }
@@ -193,25 +173,23 @@ TEST(CloudMessages, ListAFewAndCountTheRest) {
 
 TEST(CloudMessages, SayWhatIsWrongWithNumbers) {
   auto const problems = read_text("x,y,volume,kernel_volume\n0,nan,1,1\n1,0,0,1\n-inf,1,1,1\n3e9,0,1,-2\n").problems;
-  EXPECT_EQ(problems,
-            (Words{"cloud.csv:2: y is not a number (expected a finite number) - correct the row",
-                   "cloud.csv:3: the volume is 0 m^2 (expected a positive number) - correct or remove the row",
-                   "cloud.csv:4: x is -inf m (expected a finite number) - correct the row",
-                   "cloud.csv:5: x is 3e+09 m (at most 1e+09 m away from the origin) - correct the row or the unit",
-                   "cloud.csv:5: the kernel volume is -2 m^2 (expected a positive number) - correct or remove the "
-                   "row"}));
+  EXPECT_TRUE(mentions_each(problems, {{"cloud.csv:2:", "y", "not a number", "finite"},
+                                       {"cloud.csv:3:", "volume", "0 m^2", "positive"},
+                                       {"cloud.csv:4:", "x", "-inf m", "finite"},
+                                       {"cloud.csv:5:", "x", "3e+09 m", "at most 1e+09 m", "unit"},
+                                       {"cloud.csv:5:", "kernel volume", "-2 m^2", "positive"}}));
 }
 
 TEST(CloudMessages, SayWhatIsWrongWithVolumesAndBodies) {
   std::string const points = "x,y\n0,0\n1,0\n0,1\n";
-  EXPECT_EQ(read_text(points).problems, Words{"cloud.csv: has no column \"volume\" - add one, or give the total volume "
-                                              "of the body, of which every point gets an equal share"});
-  EXPECT_EQ(read_text(points, {.total_volume = 0}).problems,
-            Words{"cloud.csv: the total volume is 0 (expected a positive number) - correct it"});
-  EXPECT_EQ(read_text("x,y,volume\n0,0,1\n1,0,1\n0,1,1\n", {.total_volume = 3}).problems,
-            Words{"cloud.csv: gives volumes, and the case gives a total volume - leave out one of them"});
-  EXPECT_EQ(read_text(points, {.total_volume = 3, .body = "ball"}).problems,
-            Words{"cloud.csv: has no column \"body\" to choose \"ball\" from - add one, or leave out the body"});
+  EXPECT_TRUE(
+      mentions_each(read_text(points).problems, {{"cloud.csv:", "no column \"volume\"", "add one", "total volume"}}));
+  EXPECT_TRUE(mentions_each(read_text(points, {.total_volume = 0}).problems,
+                            {{"cloud.csv:", "total volume", "0", "positive"}}));
+  EXPECT_TRUE(mentions_each(read_text("x,y,volume\n0,0,1\n1,0,1\n0,1,1\n", {.total_volume = 3}).problems,
+                            {{"cloud.csv:", "volumes", "total volume", "leave out one"}}));
+  EXPECT_TRUE(mentions_each(read_text(points, {.total_volume = 3, .body = "ball"}).problems,
+                            {{"cloud.csv:", "no column \"body\"", "\"ball\"", "add one"}}));
   EXPECT_EQ(read_text("x,y,z\n0,0,0\n1,0,0\n", {.total_volume = 3}).problems,
             Words{"cloud.csv: holds 2 points (at least 4 in 3D) - give more"});
 }
@@ -222,20 +200,17 @@ TEST(CloudMessages, SayWhichPointsAreTooClose) {
       read_text(square + "1,1\n", {.total_volume = 25}).problems,
       Words{"cloud.csv: 1 point is where another one is, first line 8 and line 27 - remove the rows that are there "
             "twice"});
-  EXPECT_EQ(
-      read_text(square + "1.2,1\n", {.total_volume = 25}).problems,
-      Words{"cloud.csv: 2 points are nearer to another one than 0.3 of the median distance 1 m, nearest line 8 and "
-            "line 27 with 200 mm between them - spread or remove them"});
-  EXPECT_EQ(
-      read_text("x,y\n0,0\n1e-200,0\n0,1e-200\n", {.total_volume = 1}).problems,
-      Words{"cloud.csv: the median distance to the nearest point is 0 m (at least 1e-12 m) - is the unit right?"});
+  EXPECT_TRUE(
+      mentions_each(read_text(square + "1.2,1\n", {.total_volume = 25}).problems,
+                    {{"cloud.csv:", "2 points", "0.3 of the median distance 1 m", "line 8 and line 27", "200 mm"}}));
+  EXPECT_TRUE(mentions_each(read_text("x,y\n0,0\n1e-200,0\n0,1e-200\n", {.total_volume = 1}).problems,
+                            {{"cloud.csv:", "median distance", "0 m", "at least 1e-12 m", "unit"}}));
 }
 
 TEST(CloudMessages, SayThatVolumesDoNotFitTheDistances) {
-  EXPECT_EQ(
-      read_text("x,y\n" + square_rows(5), {.total_volume = 25e-6}).problems,
-      Words{"cloud.csv: the volumes do not fit the distances: 2.5e-05 m^2 over 25 points is a spacing of 1 mm, but "
-            "the median distance is 1 m (0.25 to 2.5 spacings) - are the units right?"});
+  EXPECT_TRUE(mentions_each(read_text("x,y\n" + square_rows(5), {.total_volume = 25e-6}).problems,
+                            {{"cloud.csv:", "volumes", "2.5e-05 m^2 over 25 points", "1 mm", "median distance is 1 m",
+                              "0.25 to 2.5 spacings", "units"}}));
 }
 
 TEST(CloudMessages, SayWhereNoGradientCanBeFormed) {
@@ -245,22 +220,19 @@ TEST(CloudMessages, SayWhereNoGradientCanBeFormed) {
       read_text(plane, {.total_volume = 36}).problems,
       Words{"cloud.csv: no gradient can be formed at any of the 36 points: in every neighbourhood they lie on one "
             "plane or line - give several layers, or only the columns x and y for a case in 2D"});
-  EXPECT_EQ(read_text("x,y\n0,0\n1,0\n2,0\n3,0\n", {.total_volume = 4}).problems,
-            Words{"cloud.csv: no gradient can be formed at any of the 4 points: in every neighbourhood they lie on one "
-                  "line - spread them"});
+  EXPECT_TRUE(mentions_each(read_text("x,y\n0,0\n1,0\n2,0\n3,0\n", {.total_volume = 4}).problems,
+                            {{"cloud.csv:", "no gradient", "any of the 4 points", "one line", "spread"}}));
   std::string const stray = "x,y,z,volume\n" + lattice_rows(4) + "20,0,0,1\n";
-  EXPECT_EQ(read_text(stray).problems,
-            Words{"cloud.csv: no gradient can be formed at 1 point, worst at line 66: the smallest eigenvalue of its "
-                  "matrix is 0 of the usual one (at least 0.02); neighbours within 2.4 spacings of 1 m are too few or "
-                  "lie on one plane - add points there or remove these"});
+  EXPECT_TRUE(
+      mentions_each(read_text(stray).problems, {{"cloud.csv:", "no gradient", "1 point", "line 66", "eigenvalue",
+                                                 "at least 0.02", "2.4 spacings of 1 m", "add points"}}));
 }
 
 TEST(CloudMessages, NoteWeakGradients) {
   std::string const text = "x,y\n" + square_rows(8) + "8.5,3\n";
   auto const [cloud, problems] = read_text(text, {.total_volume = 65});
   EXPECT_EQ(problems, Words{});
-  EXPECT_EQ(cloud.notes, Words{"cloud.csv: the gradient is weak at line 66: the smallest eigenvalue of its matrix is "
-                               "0.044 of the usual one"});
+  EXPECT_TRUE(mentions_each(cloud.notes, {{"cloud.csv:", "gradient is weak", "line 66", "eigenvalue", "0.044"}}));
 }
 
 TEST(CloudMessages, NoteUnevenClouds) {
@@ -286,12 +258,9 @@ TEST(CloudMessages, NameTheFileThatCannotBeRead) {
   read_cloud((folder / "cloud.VTU").string(), {}, problems);
   read_cloud((folder / "none.h5").string(), {}, problems);
   ASSERT_EQ(problems.size(), 3U);
-  EXPECT_EQ(problems[0],
-            (folder / "none.csv").string() + ": cannot be read - check that the file exists and that you may read it");
-  EXPECT_EQ(problems[1],
-            (folder / "cloud.VTU").string() +
-                ": is of a kind that cannot be read as points (expected CSV, HDF5 or a frame) - convert it to "
-                "CSV with a header such as \"x [mm],y [mm],z [mm]\"");
+  EXPECT_TRUE(mentions(problems[0], {(folder / "none.csv").string() + ": ", "exists", "may read"}));
+  EXPECT_TRUE(
+      mentions(problems[1], {(folder / "cloud.VTU").string() + ": ", "CSV, HDF5 or a frame", "convert it to CSV"}));
   EXPECT_EQ(problems[2], (folder / "none.h5").string() + ": cannot be read - it is missing, empty or not a file");
 }
 
@@ -390,9 +359,8 @@ TEST(CloudFrame, IsReadBack) {
   EXPECT_EQ(cloud.spacing, 1);
   read_cloud(path, {.length_unit = 0.5}, problems);
   read_cloud(path, {.body = "1"}, problems);
-  EXPECT_EQ(problems,
-            (Words{path + ": is a frame, whose lengths are in m, and the case gives a unit for it - leave it out",
-                   path + ": has no rows of the body \"1\" (it has \"0\") - choose one of these"}));
+  EXPECT_TRUE(mentions_each(
+      problems, {{path + ": ", "frame", "in m", "leave it out"}, {path + ": ", "no rows", "\"1\"", "\"0\""}}));
 }
 
 TEST(CloudTable, OfAHundredThousandRowsTakesWellUnderASecond) {

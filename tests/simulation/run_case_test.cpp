@@ -7,6 +7,7 @@
 #include "piola/output/frames.hpp"
 #include "piola/simulation/run_summary.hpp"
 #include "support/fake_formulation.hpp"
+#include "support/key_words.hpp"
 #include "support/scripted_run.hpp"
 #include "support/temporary_folder.hpp"
 #include <gtest/gtest.h>
@@ -15,6 +16,7 @@
 namespace piola {
 namespace {
 
+using test::expect_words;
 using testing::make_springs;
 using testing::springs;
 using testing::TemporaryFolder;
@@ -471,8 +473,8 @@ TEST(RunCase, ListsColumnsWithoutNumbersInOneWarning) {
   EXPECT_EQ(outcome.shown, outcome.of.summary.warnings);
   ASSERT_EQ(outcome.shown.size(), 2U) << "that of the first row with empty cells, and of what followed";
   std::string const start = "history.csv: not a number in ", end = " s; such cells are left empty";
-  testing::expect_parts(outcome.shown[0], {start + "first, second at t = 0.31", end});
-  testing::expect_parts(outcome.shown[1], {start + "third at t = 0.61", " s, then fourth at t = 0.71", end});
+  expect_words(outcome.shown[0], {start + "first, second at t = 0.31", end});
+  expect_words(outcome.shown[1], {start + "third at t = 0.61", " s, then fourth at t = 0.71", end});
 }
 
 TEST(RunCase, ReplacesItsOwnResultsOnly) {

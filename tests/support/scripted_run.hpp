@@ -132,10 +132,6 @@ inline Outcome run(Script const& script, ParticleSet particles = make_plate(4)) 
   return run(s, folder / "r");
 }
 
-inline void expect_parts(std::string const& text, std::vector<std::string> const& parts) {
-  for (auto const& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
-}
-
 /// Deformation gradient of a rotation by `angle` [rad] in the plane.
 inline std::array<double, 9> turned(double angle) {
   return {std::cos(angle), -std::sin(angle), 0, std::sin(angle), std::cos(angle), 0, 0, 0, 1};

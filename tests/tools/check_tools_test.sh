@@ -118,6 +118,10 @@ fresh && allow && twins src/piola/base/b.cpp one && twins src/piola/base/c.cpp o
 expect 1 "duplicates: 2 (at most 0)" check_ratchets
 fresh && allow && twins src/piola/base/b.cpp one && twins tests/c.cpp other
 expect 0 "duplicates 0" check_ratchets
+fresh && allow && write tests/c.cpp "$licence" 'EXPECT_EQ(said, "case.toml:1:2: run.cfl is -1 (allowed: "' \
+  '  "above 0, at most 2) - correct it"); EXPECT_EQ(said, "a - but short");'
+expect 1 "tests/c.cpp:2: 'case.toml:1:2: run.cfl is -1 (allowed: above 0, at most 2) -...' - compare" check_ratchets
+expect 1 "long_messages_in_tests: 1 (at most 0)" check_ratchets
 
 echo "check_tools_test: $failures failures"
 [[ $failures -eq 0 ]]

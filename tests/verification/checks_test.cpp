@@ -2,11 +2,14 @@
 #include "piola/base/errors.hpp"
 #include "piola/verification/verify.hpp"
 #include "support/fake_formulation.hpp"
+#include "support/key_words.hpp"
 #include "support/temporary_folder.hpp"
 #include <gtest/gtest.h>
 
 namespace piola {
 namespace {
+
+using test::mentions;
 
 void write(std::filesystem::path const& path, std::string const& text) {
   std::filesystem::create_directories(path.parent_path());
@@ -48,8 +51,9 @@ TEST(ReadChecks, NamesOfVariantsAreNamesOfFolders) {
   for (char const* const name : {"\"\"", "\".\"", "\"..\"", "'a\\b'", "\"a\\nb\"", "\" a\"", "\"a \""})
     EXPECT_NE(named(name).find("which cannot name a folder"), std::string::npos) << name;
   EXPECT_NE(named("\"" + std::string(101, 'a') + "\"").find("which cannot name a folder"), std::string::npos);
-  EXPECT_EQ(repair_note("[[variant]]\nname = \"a\"\n[[variant]]\nname = \"a\"\n" + good_check + "variant = \"a\"\n"),
-            "variant: the name \"a\" gives the folder of a variant above - choose another");
+  EXPECT_TRUE(
+      mentions(repair_note("[[variant]]\nname = \"a\"\n[[variant]]\nname = \"a\"\n" + good_check + "variant = \"a\"\n"),
+               {"variant", "\"a\"", "folder", "variant above", "another"}));
 }
 
 TEST(ReadChecks, FilesThatCheckNothingAreRefused) {
@@ -63,12 +67,10 @@ TEST(ReadChecks, FilesThatCheckNothingAreRefused) {
 TEST(ReadChecks, SingleBracketsAreRefused) {
   EXPECT_EQ(repair_note("[check]\nquantity = \"q\"\n"),
             "'check' is one table (a list of tables is needed) - write [[check]] in double brackets");
-  EXPECT_EQ(repair_note("[variant]\nname = \"a\"\n" + good_check),
-            "'variant' is one table (a list of tables is needed) - write [[variant]] in double brackets");
-  EXPECT_EQ(repair_note("check = 3\n"),
-            "'check' is a value (a list of tables is needed) - write [[check]] in double brackets");
-  EXPECT_EQ(repair_note("check = [3]\n"),
-            "'check' is a value (a list of tables is needed) - write [[check]] in double brackets");
+  EXPECT_TRUE(mentions(repair_note("[variant]\nname = \"a\"\n" + good_check),
+                       {"'variant'", "one table", "list of tables", "[[variant]]"}));
+  EXPECT_TRUE(mentions(repair_note("check = 3\n"), {"'check'", "value", "list of tables", "[[check]]"}));
+  EXPECT_TRUE(mentions(repair_note("check = [3]\n"), {"'check'", "value", "list of tables", "[[check]]"}));
 }
 
 TEST(ReadChecks, TolerancesThatCannotFailAreRefused) {
@@ -79,10 +81,7 @@ TEST(ReadChecks, TolerancesThatCannotFailAreRefused) {
   };
   EXPECT_EQ(with("0"), "");
   EXPECT_EQ(with("\"2.5 %\""), "");
-  EXPECT_EQ(
-      with("inf"),
-      "check: 'tolerance' is inf, with which no check could fail (allowed: 0 or more, finite) - give what the source "
-      "grants");
+  EXPECT_TRUE(mentions(with("inf"), {"check:", "'tolerance'", "inf", "0 or more, finite"}));
   for (char const* const tolerance : {"\"inf %\"", "+inf"})
     EXPECT_NE(with(tolerance).find("no check could fail"), std::string::npos) << tolerance;
   for (char const* const tolerance : {"nan", "-0.1", "-inf", "\"-1 %\"", "\"nan %\""})
@@ -97,10 +96,7 @@ TEST(ReadChecks, ReferencesAreNumbersOrQuantities) {
   };
   EXPECT_EQ(with("\"100 ms\""), "");
   for (char const* const reference : {"inf", "nan", "\"soon\"", "\"5 bananas\"", "true", "[1]"})
-    EXPECT_EQ(
-        with(reference),
-        "check: 'reference' has the wrong kind (a number, or a number with unit in quotes is expected) - correct it")
-        << reference;
+    EXPECT_TRUE(mentions(with(reference), {"check:", "'reference'", "wrong kind", "number with unit"})) << reference;
 }
 
 TEST(ReadChecks, OverridesAreKeysWithValues) {

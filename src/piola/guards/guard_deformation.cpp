@@ -183,8 +183,7 @@ class StrainDriftGuard : public LargestGuard {
     if (!(largest() > limits_.strain_drift_warn)) return "";
     return fmt::format(
         "the strain of cells differs from that of their stress by {:.3g} (limit {}) at t = {:.6g} s{} - particles "
-        "creep "
-        "away without resistance; end the run earlier, or take more particles or configuration = \"fixed\"",
+        "creep away without resistance; end the run earlier, or take more particles or configuration = \"fixed\"",
         largest(), limits_.strain_drift_warn, time(), where_.known() ? " near " + where_.text(particles_) : "");
   }
   std::optional<StopRequest> stop_request() const override {

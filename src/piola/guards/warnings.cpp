@@ -78,8 +78,7 @@ void warn_of_other_contact(CaseSpec const& spec, Problems& found) {
   if (!has_surface_contact(spec) && is_given(places, "friction"))
     found.add(place_of(places, "friction"),
               "contact.friction has no effect here (contact between bodies of adaptle has no friction) - remove it, or "
-              "take nodal "
-              "or jst_sph for one of them");
+              "take nodal or jst_sph for one of them");
 }
 
 std::optional<double> column_at_start(std::optional<Diagnostics> const& start, std::string_view name) {

@@ -221,8 +221,7 @@ constexpr std::array boundary_keys{
             "what keeps bodies of adaptle apart (other bodies have surface contact); kernel: repulsion by the kernel, "
             "stiffness from the impedances; linear: a spring with the stiffness of the material, for slow impacts; "
             "published: as in the paper, with a constant that you give; surface: as other formulations have, with "
-            "friction, if "
-            "all stay total-Lagrangian; none: no contact of any body, Eulerian bodies merge",
+            "friction, if all stay total-Lagrangian; none: no contact of any body, Eulerian bodies merge",
             contact_words},
     KeyInfo{"contact", "scale", quantity, "1", positive, "1", "all but none: factor on the stiffness", {}},
     KeyInfo{"contact",

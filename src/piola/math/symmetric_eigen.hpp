@@ -34,8 +34,7 @@ template <int D, class V>
 PIOLA_FN Eigen<D, V> symmetric_eigen(SymMat<D, V> A) {
   Eigen<D, V> e;
   Mat<D, V> Q = identity<D, V>();
-  constexpr int sweeps = 12;  // each squares the size of what is left; three or four suffice
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
+  for (int sweep = 0; sweep < 12; ++sweep) {  // each squares the size of what is left; three or four suffice
     V off(0.0), size(0.0);
     for (int i = 0; i < D; ++i)
       for (int j = i; j < D; ++j) (i == j ? size : off) += A(i, j) * A(i, j);

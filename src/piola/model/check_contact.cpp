@@ -36,28 +36,39 @@ void check_contact_ability(CaseSpec const& spec, Problems& problems) {
   if (spec.contact && !able) problems.add(place_of(spec.contact->places, ""), no_surface(spec, all.front(), "contact"));
 }
 
-void check_contact_pair(CaseSpec const& spec, ContactPairSpec const& pair, Problems& problems) {
-  Place const place = place_of(pair.places, "between");
-  std::vector<std::string> known;
+/// The members that a pair names: numbers of bodies, and how many rigid shapes.
+struct PairMembers {
   std::vector<std::size_t> bodies;
-  int rigids = 0;
-  bool left_alone = false;  // a shape in contact with surfaces only, switched off
+  std::size_t rigids = 0;
+  bool left_alone = false;  ///< a shape in contact with surfaces only, switched off
+};
+
+/// Reports names that the case does not have.
+PairMembers members_of(CaseSpec const& spec, ContactPairSpec const& pair, Problems& problems) {
+  PairMembers members;
+  std::vector<std::string> known;
   for (BodySpec const& body : spec.bodies) known.push_back(body.name);
   for (RigidSpec const& rigid : spec.rigids) known.push_back(rigid.name);
   for (std::string const& name : pair.between) {
     auto const found = std::find(known.begin(), known.end(), name);
     auto const k = static_cast<std::size_t>(found - known.begin());
     if (found == known.end())
-      problems.add(place, "contact.between names " + in_quotes(name) + " (allowed: " + joined(known) + ") - " +
-                              advice_for_name(name, known));
+      problems.add(place_of(pair.places, "between"), "contact.between names " + in_quotes(name) + " (allowed: " +
+                                                         joined(known) + ") - " + advice_for_name(name, known));
     else if (k < spec.bodies.size())
-      bodies.push_back(k);
+      members.bodies.push_back(k);
     else {
-      ++rigids;
-      left_alone = pair.off && spec.rigids[k - spec.bodies.size()].turns();
+      ++members.rigids;
+      members.left_alone = pair.off && spec.rigids[k - spec.bodies.size()].turns();
     }
   }
-  if (bodies.size() + static_cast<std::size_t>(rigids) < 2) return;
+  return members;
+}
+
+void check_contact_pair(CaseSpec const& spec, ContactPairSpec const& pair, Problems& problems) {
+  Place const place = place_of(pair.places, "between");
+  auto const [bodies, rigids, left_alone] = members_of(spec, pair, problems);
+  if (bodies.size() + rigids < 2) return;
   if (bodies.empty()) problems.add(place, "contact.between names two rigid shapes (allowed: one) - name a body");
   if (bodies.size() == 2 && starts_with_surface_contact(spec, bodies[0], bodies[1])) return;
   bool const coloured =

@@ -22,8 +22,8 @@ PIOLA_FN bool related(CellListSearch const& s, Index i, Index j) {
 }
 
 /// Appends the sorted particles of [first, last) within the radius of target i, without i itself.
-PIOLA_FN void collect_run(CellListSearch const& s, Index i, float reach, Index first, Index last, FoundList& found) {
 #if PIOLA_HAS_PACKS && defined(__AVX512F__)
+PIOLA_FN void collect_run(CellListSearch const& s, Index i, float reach, Index first, Index last, FoundList& found) {
   __m512 const x = _mm512_set1_ps(s.place[0][i]), y = _mm512_set1_ps(s.place[1][i]), z = _mm512_set1_ps(s.place[2][i]),
                limit = _mm512_set1_ps(reach);
   __m512i const self = _mm512_set1_epi32(i),
@@ -50,7 +50,9 @@ PIOLA_FN void collect_run(CellListSearch const& s, Index i, float reach, Index f
     _mm512_storeu_si512(found.number + found.count, _mm512_maskz_compress_epi32(inside, number));
     found.count += __builtin_popcount(static_cast<unsigned>(inside));
   }
+}
 #elif PIOLA_HAS_PACKS && defined(__AVX2__)
+PIOLA_FN void collect_run(CellListSearch const& s, Index i, float reach, Index first, Index last, FoundList& found) {
   __m256 const x = _mm256_set1_ps(s.place[0][i]), y = _mm256_set1_ps(s.place[1][i]), z = _mm256_set1_ps(s.place[2][i]),
                limit = _mm256_set1_ps(reach);
   for (Index j = first; j < last && found.count < FoundList::room; j += 8) {
@@ -70,7 +72,9 @@ PIOLA_FN void collect_run(CellListSearch const& s, Index i, float reach, Index f
       if (k != i && related(s, i, k)) found.number[found.count++] = k;
     }
   }
+}
 #else
+PIOLA_FN void collect_run(CellListSearch const& s, Index i, float reach, Index first, Index last, FoundList& found) {
   for (Index j = first; j < last && found.count < FoundList::room; ++j) {
     float square = 0;
     for (int c = 0; c < s.dimension; ++c) {
@@ -79,8 +83,8 @@ PIOLA_FN void collect_run(CellListSearch const& s, Index i, float reach, Index f
     }
     if (square < reach && j != i && related(s, i, j)) found.number[found.count++] = j;
   }
-#endif
 }
+#endif
 
 /// Lists the neighbours of each target, in the order of cells, filled up to whole lanes with the number `sources`.
 struct FindNeighbours {

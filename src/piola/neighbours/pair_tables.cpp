@@ -18,15 +18,22 @@ struct LanePair {
 /// The entries of one group of lanes in the order of sums: group, delta, offset, lanes present.
 using Shape = std::vector<std::array<std::int32_t, 4>>;
 
-Shape shape_of(std::vector<LanePair>& pairs) {
+/// Entries of the lanes from slot `first` on; visit(slot, f) calls f for each pair of a slot.
+template <class Visit>
+Shape shape_of(Index first, int lanes, Visit const& visit) {
+  std::vector<LanePair> pairs;
+  for (int lane = 0; lane < lanes; ++lane)
+    visit(first + lane, [&](auto const& p) {
+      pairs.push_back({p.inner ? 0 : 1, p.b - (first + lane), p.offset, lane});
+    });
   std::sort(pairs.begin(), pairs.end(), [](auto const& a, auto const& b) { return a.key() < b.key(); });
   Shape shape;
   for (std::size_t k = 0; k < pairs.size();) {
-    std::int32_t lanes = 0;
+    std::int32_t present = 0;
     auto const key = pairs[k].key();
     std::array<std::int32_t, 4> entry{pairs[k].group, pairs[k].delta, pairs[k].offset, 0};
-    for (; k < pairs.size() && pairs[k].key() == key; ++k) lanes |= 1 << pairs[k].lane;
-    entry[3] = lanes;
+    for (; k < pairs.size() && pairs[k].key() == key; ++k) present |= 1 << pairs[k].lane;
+    entry[3] = present;
     shape.push_back(entry);
   }
   return shape;
@@ -37,7 +44,6 @@ Shape shape_of(std::vector<LanePair>& pairs) {
 void ReferencePairs::make_stencils() {
   int const W = options_.lanes;
   std::int32_t const full = (1 << W) - 1;
-  std::vector<LanePair> pairs;
   auto const add = [&](Shape const& shape, int group, std::int32_t(&run)[2]) {
     run[0] = static_cast<std::int32_t>(entries_.size());
     for (auto const& e : shape) {
@@ -59,12 +65,7 @@ void ReferencePairs::make_stencils() {
       auto const next = static_cast<std::int32_t>(patterns_.size());
       auto const [at, is_new] = pattern_of.try_emplace(kinds, next);
       if (is_new) {
-        pairs.clear();
-        for (int lane = 0; lane < W; ++lane)
-          visit(first + lane, [&](Pair const& p) {
-            pairs.push_back({p.inner ? 0 : 1, p.b - (first + lane), p.offset, lane});
-          });
-        Shape const shape = shape_of(pairs);
+        Shape const shape = shape_of(first, W, [&](Index slot, auto const& f) { visit(slot, f); });
         StencilPattern p{};
         add(shape, 0, p.inner);
         add(shape, 1, p.outer);

@@ -14,10 +14,11 @@ struct SurfaceData {
 
 /// Codes of a frame as in a plan: positions (on the surface for particles at one), then fields, then the components of
 /// V if balls are stretched.
-FrameCodes planned_codes(FrameReader const& frame, FrameStatistics const& survey, Lattice const& lattice,
-                         Plan const& plan, SurfaceData const& shaping);
+FrameCodes planned_codes(FrameReader const& frame, FrameStatistics const& statistics, Lattice const& lattice,
+                         Plan const& plan, SurfaceData const& surface_data);
 
 /// The bodies of the particles that a page holds.
-std::vector<std::uint16_t> planned_bodies(FrameStatistics const& survey, Plan const& plan, SurfaceData const& shaping);
+std::vector<std::uint16_t> planned_bodies(FrameStatistics const& statistics, Plan const& plan,
+                                          SurfaceData const& surface_data);
 
 }  // namespace piola::report

@@ -26,9 +26,9 @@ class Sample {
     for (std::size_t i = 0; i < count; i += stride)
       if (double const v = value(i); std::isfinite(v)) values_.push_back(v);
   }
-  double quantile(double share) {
+  double quantile(double fraction) {
     if (values_.empty()) return 0;
-    auto const at = values_.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values_.size() - 1));
+    auto const at = values_.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values_.size() - 1));
     std::nth_element(values_.begin(), at, values_.end());
     return *at;
   }
@@ -76,42 +76,42 @@ std::array<double, 2> ends_of_axis(Extent& extent) {
   return {std::max(extent.low, low - air / 2), std::min(extent.high, high + air / 2)};
 }
 
-void read_bodies(FrameReader const& frame, FrameStatistics& survey) {
+void read_bodies(FrameReader const& frame, FrameStatistics& statistics) {
   auto const body = frame.bodies();
   auto const volume = frame.volumes();
   std::vector<double> largest;
   for (std::size_t i = 0; i < body.size(); ++i) {
     auto const b = static_cast<std::size_t>(std::clamp<double>(body[i], 0, most_bodies - 1));
-    survey.body.push_back(static_cast<std::uint16_t>(b));
+    statistics.body.push_back(static_cast<std::uint16_t>(b));
     if (b >= largest.size()) largest.resize(b + 1);
     largest[b] = std::max(largest[b], static_cast<double>(volume[i]));
   }
   std::vector<int> numbers(largest.size());
   for (std::size_t b = 0; b < numbers.size(); ++b) numbers[b] = static_cast<int>(b);
-  survey.radius = ball_radii(largest, numbers, survey.dimension);
+  statistics.radius = ball_radii(largest, numbers, statistics.dimension);
 }
 
 std::string label_of(FieldInfo const& info) {
   return info.name == "CauchyStress" ? "von Mises stress" : picture_label(info.name, info.components);
 }
 
-/// Begins a survey with the data of the first frame. Throws InputError for fields that it does not have.
-FrameStatistics begin(FrameReader const& first, std::vector<std::string> const& fields) {
-  FrameStatistics survey{.dimension = first.dimension(), .particles = first.particles()};
+/// The data of the first frame alone. Throws InputError for fields that it does not have.
+FrameStatistics statistics_of(FrameReader const& first, std::vector<std::string> const& fields) {
+  FrameStatistics statistics{.dimension = first.dimension(), .particles = first.particles()};
   for (std::string const& name : fields)
-    survey.fields.push_back({first.info(name), label_of(first.info(name)), {}, {}});
-  read_bodies(first, survey);
-  return survey;
+    statistics.fields.push_back({first.info(name), label_of(first.info(name)), {}, {}});
+  read_bodies(first, statistics);
+  return statistics;
 }
 
 /// Particles that are not inside the box, in the frame with most of them.
-std::size_t count_outside(std::vector<float> const& points, FrameStatistics const& survey) {
+std::size_t count_outside(std::vector<float> const& points, FrameStatistics const& statistics) {
   std::size_t count = 0;
   for (std::size_t i = 0; i + 2 < points.size(); i += 3) {
     bool inside = true;
     for (std::size_t c = 0; c < 3; ++c) {
       auto const x = static_cast<double>(points[i + c]);
-      inside = inside && x >= survey.low[c] && x <= survey.high[c];
+      inside = inside && x >= statistics.low[c] && x <= statistics.high[c];
     }
     count += inside ? 0 : 1;
   }
@@ -163,49 +163,50 @@ std::vector<float> shown_values(FrameReader const& frame, FieldInfo const& info)
   return shown;
 }
 
-FrameStatistics survey_frames(RunFolder const& run, std::vector<std::size_t> const& frames,
-                              std::vector<std::string> const& fields) {
+FrameStatistics read_statistics(RunFolder const& run, std::vector<std::size_t> const& frames,
+                                std::vector<std::string> const& fields) {
   PIOLA_EXPECTS(!frames.empty() && frames.back() < run.frames.size());
-  FrameStatistics survey = begin(FrameReader(run.frames[frames.front()].second), fields);
-  survey.frames = frames;
+  FrameStatistics statistics = statistics_of(FrameReader(run.frames[frames.front()].second), fields);
+  statistics.frames = frames;
   std::vector<Extent> axes(3, Extent(frames.size())), ranges(fields.size(), Extent(frames.size()));
   for (std::size_t const k : frames) {
     FrameReader const frame(run.frames[k].second);
-    survey.times.push_back(frame.time());
-    survey.rigid_poses.push_back(frame.rigid_poses());
+    statistics.times.push_back(frame.time());
+    statistics.rigid_poses.push_back(frame.rigid_poses());
     auto const points = frame.points();
-    if (points.size() != 3 * survey.particles)
+    if (points.size() != 3 * statistics.particles)
       throw FileError(fmt::format("{}: has other particles than the first frame - it belongs to another run",
                                   run.frames[k].second.string()));
     for (std::size_t c = 0; c < 3; ++c) {
       auto const ends =
-          axes[c].include(survey.particles, [&](std::size_t i) { return static_cast<double>(points[3 * i + c]); });
-      if (k == frames.front()) survey.stage_low[c] = ends[0], survey.stage_high[c] = ends[1];
+          axes[c].include(statistics.particles, [&](std::size_t i) { return static_cast<double>(points[3 * i + c]); });
+      if (k == frames.front()) statistics.first_low[c] = ends[0], statistics.first_high[c] = ends[1];
     }
     for (std::size_t f = 0; f < fields.size(); ++f) {
-      auto const values = shown_values(frame, survey.fields[f].info);
-      survey.fields[f].extremes.push_back(
+      auto const values = shown_values(frame, statistics.fields[f].info);
+      statistics.fields[f].extremes.push_back(
           ranges[f].include(values.size(), [&](std::size_t i) { return static_cast<double>(values[i]); }));
     }
   }
   for (std::size_t f = 0; f < fields.size(); ++f) {
     auto const whole = whole_range(fields[f]);
-    survey.fields[f].scale = whole ? ByteScale{(*whole)[0], (*whole)[1]} : scale_of_values(ranges[f]);
+    statistics.fields[f].scale = whole ? ByteScale{(*whole)[0], (*whole)[1]} : scale_of_values(ranges[f]);
   }
   bool cut = false;
   for (std::size_t c = 0; c < 3; ++c) {
     auto const ends = ends_of_axis(axes[c]);
-    survey.low[c] = ends[0], survey.high[c] = ends[1];
+    statistics.low[c] = ends[0], statistics.high[c] = ends[1];
     cut = cut || ends[0] > axes[c].low || ends[1] < axes[c].high;
   }
   for (std::size_t const k : cut ? frames : std::vector<std::size_t>{frames.back()})
-    survey.outside = std::max(survey.outside, count_outside(FrameReader(run.frames[k].second).points(), survey));
-  return survey;
+    statistics.outside =
+        std::max(statistics.outside, count_outside(FrameReader(run.frames[k].second).points(), statistics));
+  return statistics;
 }
 
-FrameCodes codes_of(FrameReader const& frame, FrameStatistics const& survey, Lattice const& lattice, std::size_t fields,
-                    std::size_t every) {
-  PIOLA_EXPECTS(every >= 1 && fields <= survey.fields.size());
+FrameCodes codes_of(FrameReader const& frame, FrameStatistics const& statistics, Lattice const& lattice,
+                    std::size_t fields, std::size_t every) {
+  PIOLA_EXPECTS(every >= 1 && fields <= statistics.fields.size());
   FrameCodes codes;
   {
     auto const points = frame.points();
@@ -215,9 +216,9 @@ FrameCodes codes_of(FrameReader const& frame, FrameStatistics const& survey, Lat
   }
   for (std::size_t f = 0; f < fields; ++f) {
     auto& list = codes.fields.emplace_back();
-    auto const values = shown_values(frame, survey.fields[f].info);
+    auto const values = shown_values(frame, statistics.fields[f].info);
     for (std::size_t i = 0; i < values.size(); i += every)
-      list.push_back(survey.fields[f].scale.code(static_cast<double>(values[i])));
+      list.push_back(statistics.fields[f].scale.code(static_cast<double>(values[i])));
   }
   return codes;
 }

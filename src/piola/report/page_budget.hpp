@@ -11,8 +11,8 @@ struct SurfaceData;
 
 /// Selection of frames, fields and particles for a page.
 struct Plan {
-  std::vector<std::size_t> frames = {};  ///< places in the survey's lists
-  std::size_t fields = 0;                ///< number of fields, the first ones of the survey
+  std::vector<std::size_t> frames = {};  ///< places in the lists of FrameStatistics
+  std::size_t fields = 0;                ///< number of fields, the first ones of FrameStatistics
   int bits = 14;                         ///< of a coordinate
   std::size_t every = 1;                 ///< every `every`-th particle
   bool stretched = false;                ///< balls are, by F
@@ -32,10 +32,11 @@ struct PageBudget {
 /// Reduces a plan until it fits. Drops in this order: stretched balls, then fields, then frames (not below twelve),
 /// then 12 bits, then each k-th particle, unless surfaces are shown. The size of a frame is measured on three in the
 /// middle.
-Plan fitting_plan(RunFolder const& run, FrameStatistics const& survey, Plan plan, PageBudget const& limits,
-                  SurfaceData const& shaping);
+Plan fitting_plan(RunFolder const& run, FrameStatistics const& statistics, Plan plan, PageBudget const& limits,
+                  SurfaceData const& surface_data);
 
 /// Sentences on what a plan omits from `wanted` to stay within a budget [bytes], and on what no plan can show.
-std::vector<std::string> plan_notes(Plan const& plan, Plan const& wanted, FrameStatistics const& survey, double budget);
+std::vector<std::string> plan_notes(Plan const& plan, Plan const& wanted, FrameStatistics const& statistics,
+                                    double budget);
 
 }  // namespace piola::report

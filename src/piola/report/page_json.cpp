@@ -64,10 +64,10 @@ Json chosen(Plan const& plan, auto const& list) {
   return some;
 }
 
-Json fields_json(FrameStatistics const& survey, Plan const& plan) {
+Json fields_json(FrameStatistics const& statistics, Plan const& plan) {
   Json fields = Json::array();
   for (std::size_t f = 0; f < plan.fields; ++f) {
-    ShownField const& field = survey.fields[f];
+    ShownField const& field = statistics.fields[f];
     fields.push_back({{"name", field.info.name},
                       {"label", field.label},
                       {"unit", field.info.unit},
@@ -79,19 +79,19 @@ Json fields_json(FrameStatistics const& survey, Plan const& plan) {
 }
 
 /// If only some particles are shown, their balls are enlarged to fill the space of the omitted ones.
-Json bodies_json(RunFolder const& run, FrameStatistics const& survey, Plan const& plan) {
-  double const growth = std::pow(static_cast<double>(plan.every), 1.0 / survey.dimension);
+Json bodies_json(RunFolder const& run, FrameStatistics const& statistics, Plan const& plan) {
+  double const growth = std::pow(static_cast<double>(plan.every), 1.0 / statistics.dimension);
   Json bodies = Json::array();
-  for (std::size_t b = 0; b < survey.radius.size(); ++b) {
+  for (std::size_t b = 0; b < statistics.radius.size(); ++b) {
     bool const named = run.spec && b < run.spec->bodies.size();
     bodies.push_back({{"name", named ? run.spec->bodies[b].name : fmt::format("body {}", b)},
-                      {"radius", growth * survey.radius[b]}});
+                      {"radius", growth * statistics.radius[b]}});
   }
   return bodies;
 }
 
 /// Columns in the order in which they are worth a plot; the energies have one together.
-std::vector<std::string> worthy_columns(RunFolder const& run, HistoryTable const& table) {
+std::vector<std::string> columns_to_plot(RunFolder const& run, HistoryTable const& table) {
   std::vector<std::string> order;
   auto const add = [&](std::string const& name) {
     bool const there = table.find(name) && unit_of_column(name) != "J";
@@ -130,8 +130,8 @@ std::optional<Json> one_plot(RunFolder const& run, std::vector<std::string> cons
 }
 
 /// The ends of the bytes of V, component by component; null where balls are round.
-Json stretch_json(Plan const& plan, SurfaceData const& shaping) {
-  if (!plan.stretched || !shaping.shapes || shaping.surfaces) return {};
+Json stretch_json(Plan const& plan, SurfaceData const& surface_data) {
+  if (!plan.stretched || !surface_data.shapes || surface_data.surfaces) return {};
   Json list = Json::array();
   for (std::size_t c = 0; c < BodyShapes::stretch_components; ++c) {
     ByteScale const scale = BodyShapes::stretch_scale(c);
@@ -141,8 +141,8 @@ Json stretch_json(Plan const& plan, SurfaceData const& shaping) {
 }
 
 /// The number of each frame's list of triangles; null where there are no surfaces.
-Json facets_json(Plan const& plan, SurfaceData const& shaping) {
-  return shaping.surfaces ? chosen(plan, shaping.surfaces->list_of) : Json();
+Json facets_json(Plan const& plan, SurfaceData const& surface_data) {
+  return surface_data.surfaces ? chosen(plan, surface_data.surfaces->list_of) : Json();
 }
 
 /// Direction of view of the pictures of the case, given by angles or by a name.
@@ -169,30 +169,31 @@ Json about_run(RunFolder const& run) {
   return about;
 }
 
-Json about_frames(RunFolder const& run, FrameStatistics const& survey, Plan const& plan, SurfaceData const& shaping) {
-  Lattice const lattice = Lattice::of(survey.low, survey.high, plan.bits);
-  Json frames{{"dimension", survey.dimension},
-              {"all", survey.particles},
+Json about_frames(RunFolder const& run, FrameStatistics const& statistics, Plan const& plan,
+                  SurfaceData const& surface_data) {
+  Lattice const lattice = Lattice::of(statistics.low, statistics.high, plan.bits);
+  Json frames{{"dimension", statistics.dimension},
+              {"all", statistics.particles},
               {"every", plan.every},
-              {"particles", planned_bodies(survey, plan, shaping).size()},
-              {"stretched", stretch_json(plan, shaping)},
-              {"facets", facets_json(plan, shaping)},
+              {"particles", planned_bodies(statistics, plan, surface_data).size()},
+              {"stretched", stretch_json(plan, surface_data)},
+              {"facets", facets_json(plan, surface_data)},
               {"key_every", FrameCodec::key_every},
               {"low", lattice.low},
               {"step", lattice.step},
               {"missing", lattice.missing()},
-              {"stage", {survey.stage_low, survey.stage_high}},
-              {"times", chosen(plan, survey.times)},
-              {"numbers", chosen(plan, survey.frames)},
-              {"fields", fields_json(survey, plan)},
-              {"bodies", bodies_json(run, survey, plan)},
+              {"stage", {statistics.first_low, statistics.first_high}},
+              {"times", chosen(plan, statistics.times)},
+              {"numbers", chosen(plan, statistics.frames)},
+              {"fields", fields_json(statistics, plan)},
+              {"bodies", bodies_json(run, statistics, plan)},
               {"shapes", Json::array()},
               {"poses", Json::array()},
               {"maps", {{"rising", colours_between(0, 1)}, {"around zero", colours_between(-1, 1)}}}};
   auto const rigids = run.spec ? run.spec->rigids : std::vector<RigidSpec>();
   for (RigidShape const& shape : shapes_at(rigids, 0)) frames["shapes"].push_back(shape_json(shape));
   for (std::size_t const k : plan.frames)
-    frames["poses"].push_back(poses_json(shapes_at(rigids, survey.times[k], survey.rigid_poses[k])));
+    frames["poses"].push_back(poses_json(shapes_at(rigids, statistics.times[k], statistics.rigid_poses[k])));
   return frames;
 }
 
@@ -201,7 +202,7 @@ Json about_plots(RunFolder const& run, std::size_t most, std::size_t& left) {
   HistoryTable const table = read_history(run.path / "history.csv");
   if (table.columns.empty() || table.rows.empty()) return plots;
   if (auto plot = one_plot(run, {})) plots.push_back(std::move(*plot));
-  auto columns = worthy_columns(run, table);
+  auto columns = columns_to_plot(run, table);
   RoundingLevels const levels(table, run.path);
   std::stable_partition(columns.begin(), columns.end(),
                         [&](std::string const& column) { return !levels.is_rounding(column); });

@@ -19,8 +19,8 @@ using Json = nlohmann::ordered_json;
 Json about_run(RunFolder const& run);
 
 /// Data for the script to show the frames: coding, times, fields with their ranges, bodies, rigid shapes.
-Json about_frames(RunFolder const& run, FrameStatistics const& survey, Plan const& plan,
-                  SurfaceData const& shaping = {});
+Json about_frames(RunFolder const& run, FrameStatistics const& statistics, Plan const& plan,
+                  SurfaceData const& surface_data = {});
 
 /// Plots of the history: energies as a ledger, columns used by quantities, probes, other columns of parts; at most
 /// `most`. `left`: number of columns without a plot. Empty if there is no history yet.

@@ -23,40 +23,41 @@ constexpr std::uintmax_t most_picture_bytes = 3'000'000;
 
 /// The frames of a page: what is known of them, and what of them it holds.
 struct Shown {
-  FrameStatistics survey;
+  FrameStatistics statistics;
   Plan plan;
-  SurfaceData shaping;
+  SurfaceData surface_data;
 };
 
 /// Finds surfaces if they are asked for, else how balls are stretched, as far as that takes seconds only.
 void shape(RunFolder const& run, ReportOptions const& options, Shown& shown) {
-  FrameStatistics& survey = shown.survey;
-  bool const soon = survey.particles <= most_stretched && survey.particles * survey.frames.size() <= most_stretches;
-  if (!options.surface && !(soon && survey.dimension > 1)) return;
-  shown.shaping.shapes = BodyShapes::of(run, survey.dimension, survey.body);
-  shown.plan.stretched = !options.surface && shown.shaping.shapes;
+  FrameStatistics& statistics = shown.statistics;
+  bool const soon =
+      statistics.particles <= most_stretched && statistics.particles * statistics.frames.size() <= most_stretches;
+  if (!options.surface && !(soon && statistics.dimension > 1)) return;
+  shown.surface_data.shapes = BodyShapes::of(run, statistics.dimension, statistics.body);
+  shown.plan.stretched = !options.surface && shown.surface_data.shapes;
   if (!options.surface) return;
-  if (shown.shaping.shapes) {
-    shown.shaping.shapes->follow(run);
-    shown.shaping.surfaces = find_surfaces(run, *shown.shaping.shapes, survey);
+  if (shown.surface_data.shapes) {
+    shown.surface_data.shapes->follow(run);
+    shown.surface_data.surfaces = find_surfaces(run, *shown.surface_data.shapes, statistics);
   }
   auto const triangles = [](auto const& list) { return !list.empty(); };
-  if (!shown.shaping.surfaces ||
-      std::none_of(shown.shaping.surfaces->lists.begin(), shown.shaping.surfaces->lists.end(), triangles))
+  if (!shown.surface_data.surfaces ||
+      std::none_of(shown.surface_data.surfaces->lists.begin(), shown.surface_data.surfaces->lists.end(), triangles))
     throw InputError(
         fmt::format("{}: its bodies have no surface (a case.toml that makes these particles is needed, in "
                     "2D or 3D) - leave out --surface",
                     run.path.string()));
 }
 
-Shown survey_of(RunFolder const& run, ReportOptions const& options) {
+Shown shown_of(RunFolder const& run, ReportOptions const& options) {
   auto const wanted = options.frames > 0 ? options.frames : most_frames;
   auto const numbers = spread(run.frames.size(), wanted);
   FrameReader const first(run.frames[numbers.front()].second);
   auto const fields = options.fields.empty()
                           ? usual_fields(first, run.spec ? run.spec->output.pictures.field : "Pressure", most_fields)
                           : options.fields;
-  Shown shown{survey_frames(run, numbers, fields), {}, {}};
+  Shown shown{read_statistics(run, numbers, fields), {}, {}};
   shown.plan = {.frames = std::vector<std::size_t>(numbers.size()), .fields = fields.size(), .bits = options.bits};
   std::iota(shown.plan.frames.begin(), shown.plan.frames.end(), std::size_t{0});
   shape(run, options, shown);
@@ -102,16 +103,16 @@ PageSize write_page(fs::path const& page, RunFolder const& run, Json const& abou
   double before = 0, after = 0;
   file.data("about", script_text(about), true);
   if (shown != nullptr) {
-    auto const& [survey, plan, shaping] = *shown;
-    file.data("frames", script_text(about_frames(run, survey, plan, shaping)), true);
-    file.data("bodies", packed_text(encode_numbers(planned_bodies(survey, plan, shaping))));
-    if (shaping.surfaces) put_surfaces(file, *shaping.surfaces, plan);
-    Lattice const lattice = Lattice::of(survey.low, survey.high, plan.bits);
+    auto const& [statistics, plan, surface_data] = *shown;
+    file.data("frames", script_text(about_frames(run, statistics, plan, surface_data)), true);
+    file.data("bodies", packed_text(encode_numbers(planned_bodies(statistics, plan, surface_data))));
+    if (surface_data.surfaces) put_surfaces(file, *surface_data.surfaces, plan);
+    Lattice const lattice = Lattice::of(statistics.low, statistics.high, plan.bits);
     FrameCodec coder;
     before = file.size();
     for (std::size_t k = 0; k < plan.frames.size(); ++k) {
-      FrameReader const frame(run.frames[survey.frames[plan.frames[k]]].second);
-      auto const codes = planned_codes(frame, survey, lattice, plan, shaping);
+      FrameReader const frame(run.frames[statistics.frames[plan.frames[k]]].second);
+      auto const codes = planned_codes(frame, statistics, lattice, plan, surface_data);
       file.data(fmt::format("frame-{}", k), packed_text(coder.encode(codes, k % FrameCodec::key_every == 0)));
     }
     after = file.size();
@@ -124,25 +125,25 @@ PageSize write_page(fs::path const& page, RunFolder const& run, Json const& abou
 /// necessary.
 void write_within_budget(fs::path const& page, RunFolder const& run, ReportOptions const& options, Json& about,
                          std::vector<std::string> const& notes, ReportResult& result) {
-  Shown shown = survey_of(run, options);
+  Shown shown = shown_of(run, options);
   Plan const all = shown.plan;
   constexpr double own_sources = 100'000;
   double const rest = static_cast<double>(script_text(about).size()) + own_sources, least = 0.02 * options.budget;
   PageBudget limits{.bytes = std::max(options.budget - rest, least),
                     .least_fields = options.fields.empty() ? least_fields : all.fields};
   for (int attempt = 0; attempt < 4; ++attempt) {
-    shown.plan = fitting_plan(run, shown.survey, all, limits, shown.shaping);
+    shown.plan = fitting_plan(run, shown.statistics, all, limits, shown.surface_data);
     result.notes = notes;
     if (all.frames.size() < run.frames.size() && options.frames == 0)
       result.notes.push_back(
           fmt::format("{} of {} frames are shown; --frames chooses otherwise", all.frames.size(), run.frames.size()));
-    for (auto& note : plan_notes(shown.plan, all, shown.survey, options.budget)) result.notes.push_back(note);
+    for (auto& note : plan_notes(shown.plan, all, shown.statistics, options.budget)) result.notes.push_back(note);
     about["notes"] = result.notes;
     PageSize const size = write_page(page, run, about, &shown);
     result.bytes = size.all;
     result.frames = shown.plan.frames.size();
     if (size.all <= options.budget) return;
-    if (shown.shaping.surfaces && attempt == 3)
+    if (shown.surface_data.surfaces && attempt == 3)
       result.notes.push_back(fmt::format("the page has {}: surfaces are not thinned out", size_text(size.all)));
     limits.correction *= std::max(1.02 * size.frames / limits.bytes, 1.0);
     limits.bytes = std::max(options.budget - (size.all - size.frames), least);

@@ -9,17 +9,17 @@
 namespace piola::report {
 namespace {
 
-/// Budget of each run, so that the page stays below 30 MB.
-struct Share {
+/// Plots and pictures that each run may hold, so that the page stays below 30 MB.
+struct RunBudget {
   std::size_t plots;
   std::uintmax_t picture_bytes;
-  explicit Share(std::size_t runs)
+  explicit RunBudget(std::size_t runs)
       : plots(runs > 150 ? 1 : 3), picture_bytes(12'000'000 / std::max<std::size_t>(runs, 80)) {}
 };
 
 /// The section of one run; without plots if it could not be made or left no folder.
 Json about_variant(CaseVerification const& c, VariantRun const& variant, std::filesystem::path const& folder,
-                   Share const& share) {
+                   RunBudget const& budget) {
   Json section{{"case", c.name},
                {"variant", variant.variant},
                {"wall_seconds", variant.wall_seconds},
@@ -32,8 +32,8 @@ Json about_variant(CaseVerification const& c, VariantRun const& variant, std::fi
   try {
     RunFolder const run = open_run(folder);
     std::size_t left = 0;
-    section["plots"] = about_plots(run, share.plots, left);
-    section["pictures"] = about_pictures(run, share.picture_bytes);
+    section["plots"] = about_plots(run, budget.plots, left);
+    section["pictures"] = about_pictures(run, budget.picture_bytes);
     section["text"] = run.case_text;
   } catch (InputError const&) {  // a run that left no folder
   }
@@ -53,11 +53,11 @@ double write_verification_report(std::filesystem::path const& page, std::vector<
              {"runs", Json::array()}};
   std::size_t runs = 0;
   for (CaseVerification const& c : cases) runs += c.runs.size();
-  Share const share(runs);
+  RunBudget const budget(runs);
   for (CaseVerification const& c : cases) {
     for (Json& row : about_rows(c.rows)) about["rows"].push_back(std::move(row));
     for (VariantRun const& run : c.runs)
-      about["runs"].push_back(about_variant(c, run, results / c.name / folder_of(run.variant), share));
+      about["runs"].push_back(about_variant(c, run, results / c.name / folder_of(run.variant), budget));
   }
   PageFile file(page, "Verification");
   file.data("about", script_text(about), true);

@@ -19,7 +19,7 @@ struct CheckedRun {
   std::vector<VerificationRow> rows;
 };
 
-std::vector<CheckedRun> judged_runs(CaseVerification const& c, std::filesystem::path const& results) {
+std::vector<CheckedRun> checked_runs(CaseVerification const& c, std::filesystem::path const& results) {
   std::vector<CheckedRun> runs;
   for (VariantRun const& run : c.runs) {
     if (run.summary.empty()) continue;  // it could not be made; its folder may hold the results of an earlier run
@@ -35,7 +35,7 @@ std::vector<CheckedRun> judged_runs(CaseVerification const& c, std::filesystem::
 }
 
 /// The columns that quantities with rows are taken from, in their order.
-std::vector<std::string> judged_columns(std::vector<CheckedRun> const& runs) {
+std::vector<std::string> checked_columns(std::vector<CheckedRun> const& runs) {
   std::vector<std::string> columns;
   for (CheckedRun const& run : runs) {
     if (!run.folder.spec) continue;
@@ -109,8 +109,8 @@ void add_plots(std::vector<Plot>& plots, CaseVerification const& c, std::vector<
 
 std::vector<Plot> verification_plots(CaseVerification const& c, std::filesystem::path const& results) {
   std::vector<Plot> plots;
-  auto const runs = judged_runs(c, results);
-  for (std::string const& column : judged_columns(runs)) add_plots(plots, c, runs, column);
+  auto const runs = checked_runs(c, results);
+  for (std::string const& column : checked_columns(runs)) add_plots(plots, c, runs, column);
   return plots;
 }
 

@@ -17,8 +17,8 @@ constexpr std::array<char const*, 8> blocks{"\u2581", "\u2582", "\u2583", "\u258
                                             "\u2585", "\u2586", "\u2587", "\u2588"};
 
 /// A progress bar: "[#####.....]".
-std::string share_bar(double share, std::size_t width) {
-  auto const full = static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * static_cast<double>(width) + 0.5);
+std::string progress_bar(double fraction, std::size_t width) {
+  auto const full = static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * static_cast<double>(width) + 0.5);
   return "[" + std::string(full, '#') + std::string(width - full, '.') + "]";
 }
 
@@ -57,9 +57,9 @@ std::string energies_text(HistoryTable const& table) {
     double const value = table.rows.back()[c];
     bool const shown = unit_of_column(name) == "J" && name.find('.') == std::string::npos && std::isfinite(value);
     if (!shown || (value == 0 && name != "kinetic_energy")) continue;
-    double const share = scale > 0 ? value / scale : 0;
-    text += fmt::format("{:<26} {:>12}  {:>7.2f} %  {}\n", column_words(name), quantity_text(value, "J"), 100 * share,
-                        share_bar(std::abs(share), 20));
+    double const fraction = scale > 0 ? value / scale : 0;
+    text += fmt::format("{:<26} {:>12}  {:>7.2f} %  {}\n", column_words(name), quantity_text(value, "J"),
+                        100 * fraction, progress_bar(std::abs(fraction), 20));
   }
   return text;
 }
@@ -85,8 +85,8 @@ std::string line_plot(std::vector<double> const& x, std::vector<double> const& y
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i) {
     if (!std::isfinite(y[i]) || !std::isfinite(x[i])) continue;
-    double const share = span > 0 ? (x[i] - from) / span : 0;
-    last[static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * static_cast<double>(width - 1))] = y[i];
+    double const fraction = span > 0 ? (x[i] - from) / span : 0;
+    last[static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * static_cast<double>(width - 1))] = y[i];
     low = std::min(low, y[i]);
     high = std::max(high, y[i]);
   }
@@ -94,8 +94,8 @@ std::string line_plot(std::vector<double> const& x, std::vector<double> const& y
   double held = std::numeric_limits<double>::quiet_NaN();
   for (double const value : last) {
     if (std::isfinite(value)) held = value;  // a place between two rows shows the one before
-    double const share = high > low ? (held - low) / (high - low) : 0;
-    line += std::isfinite(held) ? blocks[static_cast<std::size_t>(share * (blocks.size() - 1) + 0.5)] : " ";
+    double const fraction = high > low ? (held - low) / (high - low) : 0;
+    line += std::isfinite(held) ? blocks[static_cast<std::size_t>(fraction * (blocks.size() - 1) + 0.5)] : " ";
   }
   return line;
 }
@@ -111,7 +111,7 @@ Watch::Look Watch::look(std::size_t width) {
   std::string text = fmt::format("{}\n{}, t = {}, step {}", run_.title, run_.status, quantity_text(time, "s"),
                                  number_text(table.values("step").back(), 12));
   if (end > 0)
-    text += fmt::format(" {} {:.0f} % of {}", share_bar(time / end, 20), 100 * time / end, quantity_text(end, "s"));
+    text += fmt::format(" {} {:.0f} % of {}", progress_bar(time / end, 20), 100 * time / end, quantity_text(end, "s"));
   text +=
       fmt::format("\n\n{}\n{}\n{}", energies_text(table), plot_lines(table, column_, width), row_text(table, width));
   if (!run_.failure.empty()) text += "\n" + run_.failure + "\n";

@@ -2,6 +2,7 @@
 // Bodies that start in contact: surfaces keep them apart, the kernel where particles have converted.
 #include "piola/model/read_case.hpp"
 #include "piola/simulation/build.hpp"
+#include "support/key_words.hpp"
 #include "support/places.hpp"
 #include "support/temporary_folder.hpp"
 #include "verification/surface_bodies.hpp"
@@ -12,6 +13,7 @@ namespace piola {
 namespace {
 
 using namespace testing;
+using test::expect_words;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -117,7 +119,7 @@ TEST(LostSurfaces, LetARodInATubeStartWithoutEnergy) {
   std::string tube = text_of(source_folder() + "/tests/regression/expanding_tube.toml");
   std::string const refusal = message(tube);
   EXPECT_THAT(refusal, HasSubstr("the bodies \"tube\" and \"plug\" start close to each other"));
-  EXPECT_THAT(refusal, HasSubstr("the rigid shape \"anvil\" starts 50 um from a particle of body \"tube\""));
+  expect_words(refusal, {"the rigid shape \"anvil\"", "50 um from a particle of body \"tube\""});
   std::string const anvil = "plane = { point = [0, 0, 0]";
   tube.replace(tube.find(anvil), anvil.size(), "plane = { point = [0, 0, \"-0.34 mm\"]");
   for (char const* pair : {"\"tube\", \"plug\"", "\"tube\", \"shot\"", "\"plug\", \"shot\""})

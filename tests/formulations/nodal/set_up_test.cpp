@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/setting_warnings.hpp"
 #include "formulations/nodal/nodal_bodies.hpp"
+#include "support/key_words.hpp"
 
 namespace piola::testing {
 namespace {
+
+using test::expect_words;
 
 /// Integral over the body of 1, X_i and X_i X_j, from its bounds.
 double box_moment(Body const& body, std::size_t D, int i, int j) {
@@ -179,11 +182,8 @@ TEST(NodalSetUp, RefusesABarSoLongThatItsGradientsMissTheDivergenceTheorem) {
 }
 
 TEST(NodalSetUp, RefusesBodiesOfTwoParticlesAcross) {
-  EXPECT_EQ(refusal(nodal_body(brick(3, 0, {5, 2, 5})))
-                .rfind("body 'brick': particle 0 at (-0.2, 0.1, 0) m has "
-                       "neighbours that determine no quadratic field",
-                       0),
-            0U);
+  expect_words(refusal(nodal_body(brick(3, 0, {5, 2, 5}))),
+               {"body 'brick': particle 0 at (-0.2, 0.1, 0) m", "quadratic field"});
 }
 
 TEST(NodalDoubts, AreAboutPressuresThatFollowAFaceAndVaryAlongIt) {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formulations/nodal/nodal_bodies.hpp"
+#include "support/key_words.hpp"
 
 namespace piola::testing {
 namespace {
+
+using test::mentions;
 
 /// A body with one deformation gradient everywhere.
 Assembly uniform(int dimension, Mat<3> const& F, MaterialParameters const& m, std::string const& assumption) {
@@ -67,8 +70,7 @@ TEST(NodalPlaneStress, IsHookesLawForSmallStrains) {
 TEST(NodalPlaneStress, IsRefusedInThreeDimensions) {
   Assembly a = nodal_body(brick(3));
   choose(a, "assumption", std::string("plane_stress"));
-  EXPECT_EQ(refusal(a),
-            "formulation: assumption = \"plane_stress\" is for bodies in 2D, this one is in 3D - leave it out");
+  EXPECT_TRUE(mentions(refusal(a), {"formulation", "plane_stress", "2D", "3D", "leave it out"}));
 }
 
 }  // namespace

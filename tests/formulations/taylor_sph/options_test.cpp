@@ -2,9 +2,12 @@
 #include "piola/formulations/taylor_sph/options.hpp"
 #include "piola/base/errors.hpp"
 #include "formulations/taylor_sph/taylor_bodies.hpp"
+#include "support/key_words.hpp"
 
 namespace piola::taylor_sph {
 namespace {
+
+using test::mentions;
 
 using Words = std::map<std::string, std::string, std::less<>>;
 using Numbers = std::map<std::string, double, std::less<>>;
@@ -122,8 +125,8 @@ TEST(TaylorOptions, RefuseACourantNumberAboveOne) {
 }
 
 TEST(TaylorOptions, RefuseAnAssumptionForAnotherDimension) {
-  EXPECT_EQ(message(3, {{"assumption", "plane_stress"}}),
-            "formulation: assumption = \"plane_stress\" is for bodies in 2D, this one is in 3D - leave it out");
+  EXPECT_TRUE(mentions(message(3, {{"assumption", "plane_stress"}}),
+                       {"formulation", "plane_stress", "2D", "3D", "leave it out"}));
   for (auto const* word : {"plane_stress", "plane_strain"})
     for (int D = 1; D <= 3; ++D) EXPECT_EQ(message(D, {{"assumption", word}}).empty(), D == 2) << word << D;
   for (auto const* word : {"uniaxial_stress", "uniaxial_strain"})
@@ -157,17 +160,16 @@ TEST(TaylorSolver, RefusesMirrorsAndAnInitialDeformationGradient) {
   EXPECT_EQ(refusal(a), piola::refusal(info(), "mirrors"));
   a.mirrors.clear();
   a.initial_deformation_gradient.assign(a.particles.X.size(), {1, 0, 0, 0, 1, 0, 0, 0, 1});
-  EXPECT_EQ(refusal(a),
-            "taylor_sph: there is an initial deformation gradient (stress starts at zero here) - remove it");
+  EXPECT_TRUE(mentions(refusal(a), {"taylor_sph", "initial deformation gradient", "remove"}));
 }
 
 TEST(TaylorSolver, RefusesAMachineThatItDoesNotHaveAndNamesThoseItHas) {
   using namespace testing;
   Assembly a = assemble_taylor(unit_box(2, 5));
   a.backend = "abacus";
-  std::string expected = "instruction set 'abacus' is unknown or not usable on this processor (usable: auto";
-  for (auto names = backend_names(); *names != nullptr; ++names) expected += std::string(", ") + *names;
-  EXPECT_EQ(refusal(a), expected + ")");
+  std::string usable = "usable: auto";
+  for (auto names = backend_names(); *names != nullptr; ++names) usable += std::string(", ") + *names;
+  EXPECT_TRUE(mentions(refusal(a), {"instruction set", "'abacus'", usable + ")"}));
 }
 
 }  // namespace
