@@ -87,8 +87,7 @@ void Session::observe(py::function call, double every) {
 }
 
 Table Session::field(std::string const& name, std::optional<Table> out) const {
-  Formulation const& formulation = *simulation_->formulation;
-  FieldCache cache(formulation, simulation_->particles);
+  FieldCache cache(*simulation_->formulation, simulation_->particles);
   if (!cache.knows(name)) throw py::key_error(fmt::format("there is no field '{}': see Run.fields", name));
   int const components = cache.info(name).components;
   std::vector<py::ssize_t> shape{simulation_->particles.size()};
@@ -99,9 +98,9 @@ Table Session::field(std::string const& name, std::optional<Table> out) const {
                                       components > 1 ? fmt::format(" {}", components) : ""));
   std::span<double> const room(values.mutable_data(), static_cast<std::size_t>(values.size()));
   py::gil_scoped_release const others_may_run;
-  auto const own = formulation.fields();
+  auto const own = cache.observables().fields();
   if (std::any_of(own.begin(), own.end(), [&](FieldInfo const& info) { return info.name == name; })) {
-    formulation.sample(name, room);
+    cache.observables().sample(name, room);
   } else {
     auto const made = cache.values(name);
     std::copy(made.begin(), made.end(), room.begin());

@@ -94,10 +94,10 @@ Load& load(Assembly& a, std::array<std::string, 3> const& value, F const& where)
 inline bool everywhere(Point const&) { return true; }
 
 inline Values sample(Formulation const& f, std::string_view field, std::size_t particles) {
-  for (auto const& info : f.fields())
+  for (auto const& info : f.observables().fields())
     if (info.name == field) {
       Values values(particles * static_cast<std::size_t>(info.components));
-      f.sample(field, values);
+      f.observables().sample(field, values);
       return values;
     }
   ADD_FAILURE() << "no field is named " << field;

@@ -29,7 +29,7 @@ struct Energies {
   OfTime step = [](double) { return 1e-3; };
 };
 
-class Prescribed : public Formulation {
+class Prescribed : public testing::FakeFormulation {
  public:
   explicit Prescribed(Energies energies) : energies_(std::move(energies)) {}
   double stable_time_step() const override { return energies_.step(time_); }
@@ -61,8 +61,6 @@ class Prescribed : public Formulation {
     time_ = v[0];
     steps_ = v[1];
   }
-  int stages_per_step() const override { return 1; }
-  std::size_t memory_bytes() const override { return 0; }
 
   double stop_at = -1;
   std::atomic<int>* stop = nullptr;

@@ -119,7 +119,7 @@ TEST(Build, TakesTheParticlesThatReadingHasMade) {
   EXPECT_EQ(simulation.particles.volume.data(), std::as_const(particles).volume.data());
   particles = {};
   EXPECT_TRUE(simulation.particles.X.shared());  // with the formulation
-  EXPECT_GT(simulation.formulation->memory_bytes(), simulation.particles.bytes());
+  EXPECT_GT(simulation.formulation->statistics().memory_bytes, simulation.particles.bytes());
   Simulation const anew = build(spec);
   EXPECT_EQ(anew.particles.X, simulation.particles.X);
   EXPECT_EQ(anew.formulation->diagnose().total_energy(), simulation.formulation->diagnose().total_energy());
@@ -127,7 +127,7 @@ TEST(Build, TakesTheParticlesThatReadingHasMade) {
 
 TEST(Build, FieldsAndColumnsAreThoseThatCaseFilesKnow) {
   Simulation const simulation = build(read_case_text(test::sample_case(), "case.toml"));
-  for (FieldInfo const& field : simulation.formulation->fields()) {
+  for (FieldInfo const& field : simulation.formulation->observables().fields()) {
     for (FieldName const& known : field_names()) {
       if (known.name != field.name) continue;
       EXPECT_EQ(convert_from_si(1, field.unit, known.unit), 1) << field.name;
@@ -183,7 +183,7 @@ TEST(Build, BodiesOfRingsAreMovedByJst) {
             shape + " }, spacing = 0.1 }\n" + material,
         "case.toml");
     Simulation simulation = build(spec);
-    double const step = simulation.formulation->steady_time_step();
+    double const step = simulation.formulation->step_estimate().stable;
     Diagnostics const before = simulation.formulation->diagnose();
     for (int i = 0; i < 10; ++i) simulation.formulation->step(i * step, step);
     Diagnostics const after = simulation.formulation->diagnose();

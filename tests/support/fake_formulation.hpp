@@ -26,9 +26,24 @@ inline ParticleSet make_plate(int n) {
   return set;
 }
 
+/// The interface of a formulation around the motion that a test prescribes.
+class FakeFormulation : public Formulation, public ReplicatedObservables {
+ public:
+  StepEstimate step_estimate() const override {
+    StepEstimate rule;
+    rule.stable = rule.settled = rule.first = stable_time_step();
+    rule.limit = "the formulation";
+    return rule;
+  }
+  double kinetic_energy() const override { return diagnose().kinetic_energy; }
+  Observables const& observables() const override { return *this; }
+  RunStatistics statistics() const override { return {}; }
+  CoupledParticles* coupled_particles() override { return nullptr; }
+};
+
 /// A formulation of independent oscillators: u'' = -k u with unit mass, by symplectic Euler. The step depends on a
 /// velocity, so a resumed run agrees only if every number was restored.
-class Springs : public Formulation {
+class Springs : public FakeFormulation {
  public:
   explicit Springs(ParticleSet const& set) : set_(set), u_(3 * set.X.size()), v_(3 * set.X.size()) {
     for (std::size_t i = 0; i < set.X.size(); ++i) {
@@ -90,9 +105,12 @@ class Springs : public Formulation {
     reader.get("steps", {&steps, 1});
     steps_ = static_cast<int>(steps);
   }
-  int stages_per_step() const override { return 1; }
-  std::vector<std::pair<std::string, double>> timings() const override { return {{"springs", 0.5 * steps_}}; }
-  std::size_t memory_bytes() const override { return 16 * u_.size(); }
+  RunStatistics statistics() const override {
+    RunStatistics all;
+    all.seconds = {{"springs", 0.5 * steps_}};
+    all.memory_bytes = 16 * u_.size();
+    return all;
+  }
 
   double stiffness = 4;
   static constexpr int never = 1 << 30;

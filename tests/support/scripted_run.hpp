@@ -26,7 +26,7 @@ struct Script {
   };
 };
 
-class Scripted : public Formulation {
+class Scripted : public FakeFormulation {
  public:
   Scripted(Script script, std::size_t particles) : script_(std::move(script)), n_(particles) {}
   double stable_time_step() const override { return script_.step(time_); }
@@ -76,8 +76,6 @@ class Scripted : public Formulation {
     time_ = v[0];
     steps_ = v[1];
   }
-  int stages_per_step() const override { return 1; }
-  std::size_t memory_bytes() const override { return 0; }
 
   double stop_at = -1;
   std::atomic<int>* stop = nullptr;

@@ -34,7 +34,7 @@ void expect_exact(std::string const& shape, std::string const& formulation) {
   SCOPED_TRACE(formulation);
   Simulation const s = build(read_case_text(with_linear_displacement(body(shape, formulation)), "patch.toml"));
   std::vector<double> F(9 * s.particles.X.size());
-  s.formulation->sample("DeformationGradient", F);
+  s.formulation->observables().sample("DeformationGradient", F);
   double largest = 0;
   for (std::size_t k = 0; k < F.size(); ++k)
     largest = std::max(largest, std::abs(F[k] - gradient[k % 9] - (k % 9 % 4 == 0 ? 1 : 0)));

@@ -3,6 +3,7 @@
 #include "piola/simulation/time_loop.hpp"
 #include "formulations/small_bodies.hpp"
 #include "materials/solid_samples.hpp"
+#include "support/fake_formulation.hpp"
 #include <atomic>
 #include <numbers>
 
@@ -120,7 +121,7 @@ TEST_P(Statics, ABarUnderItsWeightIsBorneAndStretchedAsElasticityHasIt) {
 }
 
 /// Velocity Verlet of independent springs of mass 1, with omega [1/s] and x of the start.
-class Springs : public Formulation {
+class Springs : public testing::FakeFormulation {
  public:
   Springs(std::vector<double> omega, double dt)
       : omega_(std::move(omega)), x_(omega_.size(), 1), v_(omega_.size(), 0), dt_(dt) {}
@@ -152,8 +153,6 @@ class Springs : public Formulation {
   }
   void save(StateWriter&) const override {}
   void load(StateReader&) override {}
-  int stages_per_step() const override { return 1; }
-  std::size_t memory_bytes() const override { return 0; }
   double largest_x() const {
     double most = 0;
     for (double const x : x_) most = std::max(most, std::abs(x));

@@ -65,7 +65,7 @@ Diagnostics go(Simulation& s, std::function<void(Diagnostics const&)> const& loo
 /// The lowest particle [m].
 double lowest(Simulation const& s) {
   std::vector<double> x(3 * s.particles.X.size());
-  s.formulation->sample("Position", x);
+  s.formulation->observables().sample("Position", x);
   double least = x[1];
   for (std::size_t k = 1; k < x.size(); k += 3) least = std::min(least, x[k]);
   return least;

@@ -77,7 +77,7 @@ Subject prepare(BenchFile const& file, BenchRowSpec const& row, std::string cons
 /// Mean over all particles of the field Neighbours.
 double mean_neighbours(Formulation const& formulation, std::int64_t particles) {
   std::vector<double> neighbours(static_cast<std::size_t>(particles));
-  formulation.sample("Neighbours", neighbours);
+  formulation.observables().sample("Neighbours", neighbours);
   return std::accumulate(neighbours.begin(), neighbours.end(), 0.0) / static_cast<double>(particles);
 }
 
@@ -96,7 +96,7 @@ void start_row(Subject& s, int threads) {
   s.result.threads = threads;
   s.result.wall = fresh.wall;
   s.result.cpu = fresh.cpu;
-  s.before = s.simulation->formulation->timings();
+  s.before = s.simulation->formulation->statistics().seconds;
   s.stepping = 0;
 }
 
@@ -144,10 +144,11 @@ BenchRow finish(Subject& s, int repeats) {
   BenchRow& row = s.result;
   if (auto const failure = formulation.failure())
     throw PhysicsError(fmt::format("{}, {}: a particle {}", row.bench, row.name, failure->what));
-  row.parts = parts_of(s.before, formulation.timings(), s.stepping);
-  row.stages = formulation.stages_per_step();
+  RunStatistics statistics = formulation.statistics();
+  row.parts = parts_of(s.before, std::move(statistics.seconds), s.stepping);
+  row.stages = statistics.stages_per_step;
   row.neighbours = mean_neighbours(formulation, row.particles);
-  row.bytes_per_particle = static_cast<double>(formulation.memory_bytes()) / static_cast<double>(row.particles);
+  row.bytes_per_particle = static_cast<double>(statistics.memory_bytes) / static_cast<double>(row.particles);
   row.observation = std::numeric_limits<double>::infinity();
   for (int k = 0; k < repeats; ++k) {
     double const wall = wall_seconds();

@@ -69,7 +69,7 @@ double disk_of(CaseSpec const& spec, Formulation const& formulation, double part
   double const state = static_cast<double>(saved.numbers()) / built;
   double columns = 24 + static_cast<double>(formulation.diagnose().more.size());
   for (ProbeSpec const& probe : spec.probes) columns += static_cast<double>(probe.quantities.size());
-  return plan.frames * (frame_file_bytes + particles * frame_bytes(spec.output, formulation.fields())) +
+  return plan.frames * (frame_file_bytes + particles * frame_bytes(spec.output, formulation.observables().fields())) +
          plan.pictures * picture_bytes * picture_pixels(spec.output) +
          kept_checkpoints * (checkpoint_file_bytes + 8 * state * particles) + plan.rows * columns * cell_bytes;
 }
@@ -137,7 +137,7 @@ void correct(Estimate& e, CaseSpec const& spec, Trial const& trial, StepEstimate
 
 /// Memory that set-up and steps of a formulation have taken [bytes].
 double bytes_of(Formulation const& formulation, CostMeter const& meter) {
-  return std::max(meter.bytes(), static_cast<double>(formulation.memory_bytes()));
+  return std::max(meter.bytes(), static_cast<double>(formulation.statistics().memory_bytes));
 }
 
 /// Whether ranks divide the memory of a body among themselves; else each rank takes all of it.
@@ -165,7 +165,7 @@ ScaledCost scaled_cost(CaseSpec const& spec, ParticleSet const& set, std::size_t
   Assembly const part = part_of_case(spec, body, particles);
   CostMeter const meter;
   auto const formulation = make_formulation(part);
-  ScaledCost cost{.rule = formulation->step_estimate_of_run(), .setup_seconds = meter.seconds()};
+  ScaledCost cost{.rule = formulation->step_estimate(), .setup_seconds = meter.seconds()};
   auto const some = static_cast<double>(part.particles.size());
   double const here = particles_of(set.bodies[body]), scale = here / some;
   cost.disk = disk_of(spec, *formulation, here, some);
@@ -197,10 +197,10 @@ std::pair<Estimate, Trial> estimate(Simulation& s, CostMeter const& meter) {
   Estimate e;
   e.threads = s.threads;
   e.setup_seconds = meter.seconds();
-  e.rule = s.formulation->step_estimate_of_run();
+  e.rule = s.formulation->step_estimate();
   e.disk = disk_of(s.spec, *s.formulation, n, n);
   Trial const trial = take_trial_steps(*s.formulation, s.spec.run, {});
-  correct(e, s.spec, trial, s.formulation->step_estimate_of_run());
+  correct(e, s.spec, trial, s.formulation->step_estimate());
   e.step_seconds = trial.step_seconds;
   double const bytes = bytes_of(*s.formulation, meter);
   e.memory = program_bytes + static_cast<double>(s.particles.bytes()) + bytes;

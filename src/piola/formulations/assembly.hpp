@@ -79,7 +79,7 @@ struct Assembly {
   std::vector<ContactPair> contact_pairs;
   std::vector<contact::Surface> surfaces;                 ///< one per body, or empty: no surface contact
   std::vector<contact::TieRule> ties;                     ///< of bodies that have surfaces
-  bool coupled = false;                                   ///< Formulation::push will be called
+  bool coupled = false;                                   ///< contact or ties use Formulation::coupled_particles()
   double cfl = std::numeric_limits<double>::quiet_NaN();  ///< nan: the scheme's default
   std::string backend = "auto";                           ///< instruction set: auto, scalar, v3, v4
   Repartition repartition;                                ///< on ranks

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/formulation.hpp"
 #include "piola/domain/communicator.hpp"
-#include "piola/formulations/common/set_up_checks.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <stdexcept>
@@ -14,14 +13,8 @@ FieldInfo const& info_of(std::span<FieldInfo const> fields, std::string_view nam
   return *found;
 }
 
-/// sample() has its result on rank 0 and none on other ranks.
-std::optional<std::vector<std::int64_t>> Formulation::local_particles() const {
+std::optional<std::vector<std::int64_t>> ReplicatedObservables::local_particles() const {
   return comm::rank() == 0 ? std::nullopt : std::optional<std::vector<std::int64_t>>(std::in_place);
-}
-
-std::vector<SetUpCheck> set_up_checks_of(Formulation const& formulation) {
-  auto const* checked = dynamic_cast<SetUpChecked const*>(&formulation);
-  return checked == nullptr ? std::vector<SetUpCheck>{} : checked->set_up_checks();
 }
 
 void StateWriter::put_rows(std::string_view name, DistributedRows const& rows, std::span<double const> values) {

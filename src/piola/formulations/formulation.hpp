@@ -2,6 +2,8 @@
 #pragma once
 #include "piola/domain/load_balancer.hpp"
 #include "piola/domain/redistribution_plan.hpp"
+#include "piola/formulations/common/set_up_checks.hpp"
+#include "piola/formulations/observables.hpp"
 #include "piola/mechanics/resultants.hpp"
 #include "piola/mechanics/rigid_state.hpp"
 #include <array>
@@ -14,16 +16,6 @@
 #include <vector>
 
 namespace piola {
-
-/// A particle field as it appears in frames, probes and the manual.
-struct FieldInfo {
-  std::string name;  ///< VTK style, e.g. "CauchyStress"
-  std::string unit;  ///< SI, UDUNITS notation
-  int components;    ///< 1 scalar, 3 vector, 6 symmetric tensor (XX YY ZZ XY YZ XZ), 9 tensor (row by row)
-};
-
-/// Returns the field of this name. Throws std::invalid_argument if there is none.
-FieldInfo const& info_of(std::span<FieldInfo const> fields, std::string_view name);
 
 /// The contribution of one body to the quantities below.
 struct BodyDiagnostics {
@@ -71,10 +63,20 @@ struct Failure {
 
 /// Estimate of the step lengths of a run.
 struct StepEstimate {
+  double stable = 0;   ///< s, the step that the current state allows after the first, shorter steps
   double settled = 0;  ///< s, the step once the run has settled
   double first = 0;    ///< s
   double growth = 1;   ///< a step may be longer than the one before by this factor; 1: no bound
   std::string limit;   ///< what limits the step, in words
+};
+
+/// Cost of a formulation and quality of its set-up, for the summary, estimates and benchmarks.
+struct RunStatistics {
+  int stages_per_step = 1;                              ///< right-hand sides per step
+  std::vector<std::pair<std::string, double>> seconds;  ///< wall time since construction by part of the work [s]
+  std::size_t memory_bytes = 0;
+  std::vector<SetUpCheck> set_up_checks;
+  std::optional<RepartitionStatistics> repartition;  ///< empty if the formulation cannot repartition
 };
 
 /// Receives the evolved state by name, in Id order, as bit-exact doubles.
@@ -126,64 +128,36 @@ class StateReader {
   virtual std::optional<FileExtent> place(std::string_view /*name*/, std::size_t /*count*/) { return std::nullopt; }
 };
 
+class CoupledParticles;
+
 /// Interface of every formulation: called at most a few times per step, holds no data. Particles are addressed in Id
-/// order (the order of the ParticleSet), whatever the internal order.
+/// order (the order of the ParticleSet), whatever the internal order. A class that wraps formulations must forward each
+/// function, so none has a default.
 class Formulation {
  public:
   virtual ~Formulation() = default;
 
   virtual double stable_time_step() const = 0;  ///< s, the step to take from the current state
-  /// For estimates: the step after the first, shorter steps [s].
-  virtual double steady_time_step() const { return stable_time_step(); }
-  virtual StepEstimate step_estimate_of_run() const {
-    StepEstimate rule;
-    rule.settled = rule.first = steady_time_step();
-    rule.limit = "the formulation";
-    return rule;
-  }
+  virtual StepEstimate step_estimate() const = 0;
   virtual void step(double time, double dt) = 0;  ///< from time to time + dt
   /// Multiplies the velocities that are not prescribed by `factor`, from 0 to 1. The lost kinetic energy is added to
   /// the damping loss. Called between steps.
   virtual void damp(double factor) = 0;
-  virtual double kinetic_energy() const { return diagnose().kinetic_energy; }  ///< [J]
-  /// Contact and ties change velocities between steps, when all formulations are at the same time. The three functions
-  /// below are their interface. Only if FormulationInfo::can_be_coupled and Assembly::coupled. All ranks pass the same
-  /// ids and get the same values.
-  virtual void read_motion(std::span<std::int64_t const> /*ids*/, std::span<std::array<double, 3>> /*x*/,
-                           std::span<std::array<double, 3>> /*v*/) const {}                          ///< [m], [m/s]
-  virtual void read_masses(std::span<std::int64_t const> /*ids*/, std::span<double> /*m*/) const {}  ///< [kg]
-  /// Adds to velocities, also to prescribed ones [m/s].
-  virtual void add_velocities(std::span<std::int64_t const> /*ids*/,
-                              std::span<std::array<double, 3> const> /*change*/) {}
-
-  /// Current state of free and rotating rigid shapes; driven ones without rotation follow from the case.
-  virtual std::vector<RigidState> rigids() const { return {}; }
 
   virtual std::optional<Failure> failure() const = 0;  ///< set once the state is inadmissible
-  /// Collective, like sample(), save() and load(), if the body is distributed over ranks; the result is on rank 0.
+  virtual double kinetic_energy() const = 0;           ///< [J]; collective
+  /// Collective, like save(), load() and the functions of observables(), if the body is distributed over ranks; the
+  /// result is on rank 0.
   virtual Diagnostics diagnose() const = 0;
-
-  virtual std::vector<FieldInfo> fields() const = 0;
-  /// The fields of one body of coupled formulations; bodies without a field show zero.
-  virtual std::vector<FieldInfo> fields_of(std::size_t /*body*/) const { return fields(); }
-  /// Samples one field: values[id * components + c]. Ranks other than 0 pass an empty span.
-  virtual void sample(std::string_view field, std::span<double> values) const = 0;
-  /// Ids of the particles that this rank evaluates for observers: each particle is on exactly one rank. Valid until the
-  /// next repartition. Empty: all particles, in Id order.
-  virtual std::optional<std::vector<std::int64_t>> local_particles() const;
-  /// Samples one field of local_particles(): values[k * components + c] for the k-th. Collective.
-  virtual void sample_local(std::string_view field, std::span<double> values) const { sample(field, values); }
+  virtual Observables const& observables() const = 0;  ///< lives as long as the formulation
+  virtual RunStatistics statistics() const = 0;        ///< of this rank
 
   virtual void save(StateWriter& writer) const = 0;
   virtual void load(StateReader& reader) = 0;
 
-  virtual int stages_per_step() const = 0;  ///< right-hand sides per step
-  /// Wall time since construction by part of the work [s], for the summary.
-  virtual std::vector<std::pair<std::string, double>> timings() const { return {}; }
-  virtual std::size_t memory_bytes() const = 0;
-
-  /// Number of repartitions; empty if the formulation cannot repartition.
-  virtual std::optional<RepartitionStatistics> repartition_statistics() const { return std::nullopt; }
+  /// The particles that contact and ties may move between steps. Only if Assembly::coupled; nullptr if they cannot
+  /// (FormulationInfo::can_be_coupled). Lives as long as the formulation.
+  virtual CoupledParticles* coupled_particles() = 0;
 };
 
 }  // namespace piola

@@ -4,7 +4,6 @@
 #include "piola/base/text.hpp"
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/formulations/adaptle/solver.hpp"
-#include "piola/formulations/common/observe_on_root.hpp"
 #include "piola/formulations/coupling/coupled_formulations.hpp"
 #include "piola/formulations/jst_sph/options.hpp"
 #include "piola/formulations/jst_sph/solver.hpp"
@@ -64,7 +63,7 @@ std::unique_ptr<Formulation> make_one(Assembly const& assembly) {
   for (auto const& entry : all) {
     if (entry.info.name != name) continue;
     check_abilities(entry.info, assembly);
-    return entry.info.observes_locally ? entry.make(assembly) : observe_on_root(entry.make(assembly));
+    return entry.make(assembly);
   }
   throw InputError("no formulation is named '" + name + "'");
 }

@@ -29,8 +29,8 @@ class Probe {
   std::vector<std::int64_t> const& ids() const { return ids_; }
 
   bool is_reducible() const { return piola::is_reducible(kind_); }
-  /// Restricts the probe to the local particles of this rank (Formulation::owned). evaluate() then needs a cache of
-  /// these, is collective, and gives the bits of one rank.
+  /// Restricts the probe to the local particles of this rank (Observables::local_particles). evaluate() then needs a
+  /// cache of these, is collective, and gives the bits of one rank.
   void share(std::optional<std::vector<std::int64_t>> const& owned);
 
   /// State for later calls: the last twist angle [rad].

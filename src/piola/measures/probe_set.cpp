@@ -38,9 +38,9 @@ void ProbeSet::distribute(std::optional<std::vector<std::int64_t>> const& local)
 }
 
 std::vector<std::vector<double>> ProbeSet::evaluate_additive(Formulation const& formulation, double time) {
-  auto const statistics = formulation.repartition_statistics();
+  auto const statistics = formulation.statistics().repartition;
   std::size_t const partitions = statistics ? statistics->imbalance.size() : 0;
-  if (distributed_at_ != partitions) distribute(formulation.local_particles());
+  if (distributed_at_ != partitions) distribute(formulation.observables().local_particles());
   distributed_at_ = partitions;
   FieldCache own(formulation, particles_, FieldCache::Of::local);
   std::vector<std::vector<double>> values;

@@ -8,8 +8,8 @@
 namespace piola {
 
 FieldCache::FieldCache(Formulation const& formulation, ParticleSet const& particles, Of of)
-    : formulation_(formulation), particles_(particles), fields_(formulation.fields()), of_(of) {
-  if (of == Of::local) owned_ = formulation.local_particles();
+    : observables_(formulation.observables()), particles_(particles), fields_(observables_.fields()), of_(of) {
+  if (of == Of::local) owned_ = observables_.local_particles();
   auto const add = [&](FieldInfo info) {
     if (!knows(info.name)) fields_.push_back(std::move(info));
   };
@@ -40,9 +40,9 @@ std::vector<double> FieldCache::make(std::string_view field, std::size_t compone
   } else if (DerivedField const* const derived = find_derived(field)) {
     derive(*derived, values(derived->from), out);
   } else if (of_ == Of::local) {
-    formulation_.sample_local(field, out);
+    observables_.sample_local(field, out);
   } else {
-    formulation_.sample(field, out);
+    observables_.sample(field, out);
   }
   return out;
 }

@@ -15,8 +15,8 @@ namespace piola {
 /// [m]), "Body" and "Id". Valid until the next step; formulation and particles must outlive it.
 class FieldCache {
  public:
-  /// all: values of all particles. owned: values of local particles only (Formulation::owned); `id` below is then the
-  /// index among these, and values() is collective: all ranks request the same fields in the same order.
+  /// all: values of all particles. owned: values of local particles only (Observables::local_particles); `id` below is
+  /// then the index among these, and values() is collective: all ranks request the same fields in the same order.
   enum class Of { all, local };
   FieldCache(Formulation const& formulation, ParticleSet const& particles, Of of = Of::all);
   bool knows(std::string_view field) const;
@@ -25,14 +25,14 @@ class FieldCache {
   /// values[id * components + c]
   std::span<double const> values(std::string_view field);
   std::vector<FieldInfo> const& fields() const { return fields_; }
-  Formulation const& formulation() const { return formulation_; }
+  Observables const& observables() const { return observables_; }
   ParticleSet const& particles() const { return particles_; }
   /// For Of::local, the ids of the local particles; nothing if this rank owns all.
   std::optional<std::vector<std::int64_t>> const& local_particles() const { return owned_; }
 
  private:
   std::vector<double> make(std::string_view field, std::size_t components);
-  Formulation const& formulation_;
+  Observables const& observables_;
   ParticleSet const& particles_;
   std::vector<FieldInfo> fields_;
   Of of_;

@@ -129,7 +129,7 @@ void FrameWriter::write(double time, FieldCache& cache, WithAll const& with_all)
     file.dataset<std::int64_t>(fmt::format("/VTKHDF/{}", count), std::array{cache.particles().size()});
   file.dataset<double>("/VTKHDF/FieldData/TimeValue", std::array{time});
   std::vector<double> poses;
-  for (RigidState const& rigid : cache.formulation().rigids())
+  for (RigidState const& rigid : cache.observables().rigids())
     for (auto const& part : {rigid.centre, rigid.turn}) poses.insert(poses.end(), part.begin(), part.end());
   if (!poses.empty()) file.dataset<double>(rigid_poses_name, poses, 6);
   FrameContent content(fields_, compress_, cache);

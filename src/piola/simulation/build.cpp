@@ -6,7 +6,6 @@
 #include "piola/exec/heap_tuning.hpp"
 #include "piola/exec/reproducible_sum.hpp"
 #include "piola/exec/threads.hpp"
-#include "piola/formulations/common/set_up_checks.hpp"
 #include "piola/formulations/derived_fields.hpp"
 #include "piola/formulations/make_formulation.hpp"
 #include "piola/guards/warnings.hpp"
@@ -169,13 +168,14 @@ std::string formulation_names(CaseSpec const& spec) {
 // The fields depend on the law and on the settings, so that they are taken from the formulation.
 void check_fields(CaseSpec const& spec, Formulation const& formulation, std::string const& name) {
   Problems problems;
-  auto const all_fields = formulation.fields();
+  Observables const& observables = formulation.observables();
+  auto const all_fields = observables.fields();
   for (ProbeSpec const& probe : spec.probes) {
     auto const body = std::find_if(spec.bodies.begin(), spec.bodies.end(),
                                    [&](BodySpec const& candidate) { return candidate.name == probe.body; });
     auto const fields = body == spec.bodies.end()
                             ? all_fields
-                            : formulation.fields_of(static_cast<std::size_t>(body - spec.bodies.begin()));
+                            : observables.fields_of(static_cast<std::size_t>(body - spec.bodies.begin()));
     auto const has = [&](std::string_view field) {
       if (DerivedField const* const derived = find_derived(field)) field = derived->from;
       return field == "Position" ||
@@ -285,12 +285,12 @@ Simulation build_from(CaseSpec spec, Assembly assembly) {
   simulation.formulation_name = formulation_names(spec);
   check_fields(spec, *simulation.formulation, simulation.formulation_name);
   agree_to_continue();
-  double const step = std::min(simulation.formulation->steady_time_step(), spec.run.max_step);
+  double const step = std::min(simulation.formulation->step_estimate().stable, spec.run.max_step);
   StartEstimate prospect{.step = step};
   if (any_contact(spec) && comm::rank() == 0) prospect.start = simulation.formulation->diagnose();
   if (prospect.start) refuse_unpaid_contact(spec, assembly.particles, *prospect.start);
   simulation.warnings = warnings_of(spec, assembly, prospect);
-  for (SetUpCheck& check : set_up_checks_of(*simulation.formulation))
+  for (SetUpCheck& check : simulation.formulation->statistics().set_up_checks)
     if (!check.warning.empty()) simulation.warnings.push_back(std::move(check.warning));
   simulation.particles = std::move(assembly.particles);
   simulation.spec = std::move(spec);

@@ -3,7 +3,6 @@
 #include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/domain/error_agreement.hpp"
-#include "piola/formulations/common/set_up_checks.hpp"
 #include "piola/measures/probe_set.hpp"
 #include "piola/output/collective_table_writer.hpp"
 #include "piola/output/frames.hpp"
@@ -131,13 +130,12 @@ class GatherTimer {
 };
 
 /// The formulation on rank 0, whose collective calls are executed on all ranks.
-class DriverProxy final : public Formulation, public SetUpChecked {
+class DriverProxy final : public Formulation, public Observables {
  public:
   explicit DriverProxy(std::unique_ptr<Formulation> formulation) : own_(std::move(formulation)) {}
 
   double stable_time_step() const override { return own().stable_time_step(); }
-  double steady_time_step() const override { return own().steady_time_step(); }
-  StepEstimate step_estimate_of_run() const override { return own().step_estimate_of_run(); }
+  StepEstimate step_estimate() const override { return own().step_estimate(); }
   void step(double time, double dt) override {
     send({Command::What::step, time, dt});
     count_step();
@@ -152,15 +150,16 @@ class DriverProxy final : public Formulation, public SetUpChecked {
     send({Command::What::kinetic_energy});
     return own().kinetic_energy();
   }
-  std::vector<RigidState> rigids() const override { return own().rigids(); }
   std::optional<Failure> failure() const override { return own().failure(); }
   Diagnostics diagnose() const override {
     ExcludeFromStepTraffic const aside;
     send({Command::What::diagnose});
     return own().diagnose();
   }
-  std::vector<FieldInfo> fields() const override { return own().fields(); }
-  std::vector<FieldInfo> fields_of(std::size_t body) const override { return own().fields_of(body); }
+  Observables const& observables() const override { return *this; }
+  std::vector<FieldInfo> fields() const override { return own().observables().fields(); }
+  std::vector<FieldInfo> fields_of(std::size_t body) const override { return own().observables().fields_of(body); }
+  std::vector<RigidState> rigids() const override { return own().observables().rigids(); }
   void sample(std::string_view field, std::span<double> values) const override {
     GatherTimer const gathering;
     ExcludeFromStepTraffic const aside;
@@ -168,12 +167,14 @@ class DriverProxy final : public Formulation, public SetUpChecked {
     if (field.size() >= sizeof order.field) throw std::invalid_argument(fmt::format("no field is called '{}'", field));
     field.copy(order.field, field.size());
     send(order);
-    own().sample(field, values);
+    own().observables().sample(field, values);
   }
   // Local on rank 0: evaluate_probes_collectively() has sent the commands to the other ranks.
-  std::optional<std::vector<std::int64_t>> local_particles() const override { return own().local_particles(); }
+  std::optional<std::vector<std::int64_t>> local_particles() const override {
+    return own().observables().local_particles();
+  }
   void sample_local(std::string_view field, std::span<double> values) const override {
-    own().sample_local(field, values);
+    own().observables().sample_local(field, values);
   }
   void save(StateWriter& writer) const override {
     GatherTimer const gathering;
@@ -190,17 +191,12 @@ class DriverProxy final : public Formulation, public SetUpChecked {
     BroadcastReader shared(&reader);
     own().load(shared);
   }
-  int stages_per_step() const override { return own().stages_per_step(); }
-  std::vector<std::pair<std::string, double>> timings() const override {
-    auto all = own().timings();
-    all.emplace_back("gather", gathered);
+  RunStatistics statistics() const override {
+    RunStatistics all = own().statistics();
+    all.seconds.emplace_back("gather", gathered);
     return all;
   }
-  std::vector<SetUpCheck> set_up_checks() const override { return set_up_checks_of(own()); }
-  std::size_t memory_bytes() const override { return own().memory_bytes(); }
-  std::optional<RepartitionStatistics> repartition_statistics() const override {
-    return own().repartition_statistics();
-  }
+  CoupledParticles* coupled_particles() override { return nullptr; }
 
  private:
   Formulation& own() const { return *own_; }
@@ -232,7 +228,7 @@ void execute_command(Formulation& formulation, Command const& order) {
     case Command::What::damp: return formulation.damp(order.first);
     case Command::What::kinetic_energy: return void(formulation.kinetic_energy());
     case Command::What::diagnose: return void(formulation.diagnose());
-    case Command::What::sample: return formulation.sample(order.field, {});
+    case Command::What::sample: return formulation.observables().sample(order.field, {});
     case Command::What::save: return save_with_first(formulation, static_cast<StateWriter::Rows>(order.code));
     case Command::What::load: {
       BroadcastReader shared(nullptr);

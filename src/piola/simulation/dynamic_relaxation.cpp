@@ -79,13 +79,13 @@ void Relaxation::judge(Formulation const& formulation, double dt) {
 
 /// Root mean square over all particles, at least the rounding error for a body of this size [m].
 double Relaxation::displacement(Formulation const& formulation) const {
-  auto const fields = formulation.fields();
+  auto const fields = formulation.observables().fields();
   if (std::ranges::find(fields, "Displacement", &FieldInfo::name) == fields.end())
     return std::numeric_limits<double>::infinity();
   constexpr double rounding = 1e-9;
   auto const& X = particles_.X;
   std::vector<double> u(3 * X.size());
-  formulation.sample("Displacement", u);
+  formulation.observables().sample("Displacement", u);
   exec::ReproducibleSums<3> sums;
   for (std::size_t i = 0; i < X.size(); ++i) {
     double of_one[]{particles_.volume[i], 0, 0};

@@ -236,7 +236,7 @@ void ProgressObserver::observe(Formulation const& formulation, TimeState const& 
   auto const& table = history_.table();
   if (auto const column = table.find("total_energy"); column && !table.rows.empty())
     p.total_energy = table.rows.back()[*column];
-  double const stages = static_cast<double>(moment.step) * formulation.stages_per_step() * particles_;
+  double const stages = static_cast<double>(moment.step) * formulation.statistics().stages_per_step * particles_;
   if (moment.stepping_seconds > 0) p.stages_per_second = stages / moment.stepping_seconds;
   double const advanced = moment.time - first_->time;
   if (advanced > 0) p.seconds_left = (end_ - moment.time) * (moment.wall_seconds - first_->wall_seconds) / advanced;

@@ -3,7 +3,6 @@
 #include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
-#include "piola/formulations/common/set_up_checks.hpp"
 #include "piola/guards/failure_text.hpp"
 #include "piola/guards/formula_failure.hpp"
 #include "piola/input/case_files.hpp"
@@ -142,7 +141,7 @@ TimeState begin_again(Simulation& s, RunOptions const& options, RunLog& journal,
 /// The numbers of the set-up.
 void report_set_up(Formulation const& formulation, RunLog& journal) {
   std::string numbers;
-  for (SetUpCheck const& check : set_up_checks_of(formulation))
+  for (SetUpCheck const& check : formulation.statistics().set_up_checks)
     numbers += fmt::format("{}{} = {:.3g}", numbers.empty() ? "" : ", ", check.name, check.value);
   if (!numbers.empty()) journal.note("set-up: " + numbers);
 }
@@ -205,7 +204,7 @@ std::string repartition_text(RepartitionStatistics const& repartition_statistics
 void add_watched(Summary& summary, Simulation const& s, Watch const& watch, RunLog& journal) {
   summary.guards = watch.guards.report();
   summary.ranks = traffic_on_ranks();
-  if (!summary.ranks.empty()) summary.repartition_statistics = s.formulation->repartition_statistics();
+  if (!summary.ranks.empty()) summary.repartition_statistics = s.formulation->statistics().repartition;
   if (auto const& repartition_statistics = summary.repartition_statistics;
       repartition_statistics && !repartition_statistics->imbalance.empty())
     journal.note(repartition_text(*repartition_statistics));

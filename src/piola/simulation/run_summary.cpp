@@ -2,7 +2,6 @@
 #include "piola/simulation/run_summary.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/base/version.hpp"
-#include "piola/formulations/common/set_up_checks.hpp"
 #include "piola/measures/quantities.hpp"
 #include "piola/model/body_properties.hpp"
 #include <algorithm>
@@ -120,11 +119,12 @@ Summary summarise(Simulation const& s, TimeState const& moment, RunStatus ending
   summary.end_time = moment.time;
   summary.wall_seconds = moment.wall_seconds;
   summary.threads = s.threads;
+  RunStatistics statistics = s.formulation->statistics();
   double const stages =
-      static_cast<double>(moment.step) * s.formulation->stages_per_step() * static_cast<double>(summary.particles);
+      static_cast<double>(moment.step) * statistics.stages_per_step * static_cast<double>(summary.particles);
   summary.stages_per_second = moment.stepping_seconds > 0 ? stages / moment.stepping_seconds : 0;
-  summary.seconds = s.formulation->timings();
-  for (SetUpCheck const& check : set_up_checks_of(*s.formulation)) summary.set_up.emplace_back(check.name, check.value);
+  summary.seconds = std::move(statistics.seconds);
+  for (SetUpCheck const& check : statistics.set_up_checks) summary.set_up.emplace_back(check.name, check.value);
   add_conservation(summary, history, s);
   for (QuantitySpec const& spec : s.spec.quantities) {
     std::string why;

@@ -118,7 +118,7 @@ TEST(AdaptleObserve, SumsAreTakenOverAllParticles) {
 TEST(AdaptleObserve, UnknownFieldsAreRefused) {
   Observed const o(2);
   Values room(25);
-  EXPECT_THROW(o.formulation->sample("Presure", room), std::invalid_argument);
+  EXPECT_THROW(o.formulation->observables().sample("Presure", room), std::invalid_argument);
 }
 
 TEST(AdaptleObserve, AnInitialPressureActsForOneStepOrAlways) {

@@ -68,7 +68,7 @@ TEST_P(AdaptleRuns, GoOnFromACheckpointAsIfTheyHadNotStopped) {
   EXPECT_GT(number(*whole, "eulerian_particles"), converted) << "the test has none after it";
   SavedState const left = saved(*whole), right = saved(*resumed);
   for (auto const& [name, values] : left.values) EXPECT_EQ(values, right.values.at(name)) << name;
-  for (auto const& field : whole->fields())
+  for (auto const& field : whole->observables().fields())
     EXPECT_EQ(sample(*whole, field.name, a.particles.X.size()), sample(*resumed, field.name, a.particles.X.size()))
         << field.name;
 }

@@ -87,13 +87,12 @@ TEST(CoupledFormulations, TakesTheShortestStep) {
   for (std::size_t b : {0U, 1U}) {
     auto const alone = make_formulation(box_alone(row, b));
     least = std::min(least, alone->stable_time_step());
-    settled = std::min(settled, alone->steady_time_step());
+    settled = std::min(settled, alone->step_estimate().stable);
   }
   EXPECT_EQ(together->stable_time_step(), least);
-  EXPECT_EQ(together->steady_time_step(), settled);
-  EXPECT_EQ(together->step_estimate_of_run().settled, settled);
-  EXPECT_NE(together->step_estimate_of_run().limit.find("(adaptle)"), std::string::npos)
-      << together->step_estimate_of_run().limit;
+  EXPECT_EQ(together->step_estimate().stable, settled);
+  EXPECT_EQ(together->step_estimate().settled, settled);
+  EXPECT_NE(together->step_estimate().limit.find("(adaptle)"), std::string::npos) << together->step_estimate().limit;
 }
 
 TEST(CoupledFormulations, AddsUpWhatItsPartsHave) {
@@ -118,7 +117,7 @@ TEST(CoupledFormulations, AddsUpWhatItsPartsHave) {
     EXPECT_LE(d.jacobian_min, own.jacobian_min);
     EXPECT_GE(d.jacobian_max, own.jacobian_max);
     EXPECT_GE(d.pressure_max, own.pressure_max);
-    bytes += alone->memory_bytes();
+    bytes += alone->statistics().memory_bytes;
   }
   EXPECT_NEAR(d.kinetic_energy, sum.kinetic_energy, 1e-12 * sum.kinetic_energy);
   EXPECT_NEAR(d.strain_energy, sum.strain_energy, 1e-12 * sum.strain_energy);
@@ -128,7 +127,7 @@ TEST(CoupledFormulations, AddsUpWhatItsPartsHave) {
     EXPECT_NEAR(d.angular_momentum[c], sum.angular_momentum[c], 1e-12 * scale);
     EXPECT_NEAR(d.linear_momentum[c], sum.linear_momentum[c], 1e-12 * scale);
   }
-  EXPECT_EQ(together->memory_bytes(), bytes);
+  EXPECT_EQ(together->statistics().memory_bytes, bytes);
   auto const named = [&](std::string_view name) {
     return std::count_if(d.more.begin(), d.more.end(), [&](auto const& column) { return column.first == name; });
   };
@@ -143,13 +142,13 @@ TEST(CoupledFormulations, ShowsZeroWhereAFormulationHasNoSuchField) {
   EXPECT_EQ(largest(part_of(T, row.particles.bodies[0], 1)), 0);
   EXPECT_GT(largest(part_of(T, row.particles.bodies[1], 1)), 200);
   auto const has = [&](std::size_t body, std::string_view name) {
-    auto const fields = f->fields_of(body);
+    auto const fields = f->observables().fields_of(body);
     return std::any_of(fields.begin(), fields.end(), [&](FieldInfo const& info) { return info.name == name; });
   };
   EXPECT_FALSE(has(0, "Temperature"));
   EXPECT_TRUE(has(1, "Temperature"));
   EXPECT_TRUE(has(0, "CellPressure"));
-  EXPECT_TRUE(f->fields_of(7).empty());
+  EXPECT_TRUE(f->observables().fields_of(7).empty());
 }
 
 /// Everything that has a name acts: supports, loads and a mirror on different bodies, in an order of their own.

@@ -102,7 +102,7 @@ TEST(SampledFields, AreAllNumbersAndHaveUnits) {
   auto const f = make_formulation(a);
   f->step(0, 1e-4);
   std::set<std::string> names;
-  for (FieldInfo const& field : f->fields()) {
+  for (FieldInfo const& field : f->observables().fields()) {
     EXPECT_TRUE(names.insert(field.name).second) << field.name;
     EXPECT_TRUE(same_dimension(field.unit, field.unit)) << field.name << ": unit " << field.unit << " is not known";
     for (double const value : sample(*f, field.name, a.particles.X.size()))
@@ -113,14 +113,14 @@ TEST(SampledFields, AreAllNumbersAndHaveUnits) {
 TEST(SampledFields, OfAnUnknownNameAreRefused) {
   auto const f = make_formulation(assemble(unit_box(2, 5)));
   Values room(25 * 9);
-  EXPECT_THROW(f->sample("Charisma", room), std::invalid_argument);
+  EXPECT_THROW(f->observables().sample("Charisma", room), std::invalid_argument);
 }
 
 TEST(QuantityNames, OfExistingFieldsFitTheirComponentsAndUnits) {
   auto const f = make_formulation(assemble(unit_box(2, 5)));
   int found = 0;
   for (auto const& quantity : all_quantities())
-    for (FieldInfo const& field : f->fields()) {
+    for (FieldInfo const& field : f->observables().fields()) {
       if (field.name != quantity.field) continue;
       ++found;
       EXPECT_LT(quantity.component, field.components) << quantity.name;

@@ -258,14 +258,14 @@ TEST(Solver, RefusesABodyWithTooFewParticles) {
 
 TEST(Solver, KnowsItsStagesAndItsMemory) {
   auto const small = make_formulation(assemble(unit_box(3, 4))), large = make_formulation(assemble(unit_box(3, 9)));
-  EXPECT_EQ(small->stages_per_step(), 2);
+  EXPECT_EQ(small->statistics().stages_per_step, 2);
   Assembly verlet = assemble(unit_box(3, 4));
   choose(verlet, "scheme", "filtered");
-  EXPECT_EQ(make_formulation(verlet)->stages_per_step(), 1);
-  EXPECT_GT(large->memory_bytes(), small->memory_bytes());
+  EXPECT_EQ(make_formulation(verlet)->statistics().stages_per_step, 1);
+  EXPECT_GT(large->statistics().memory_bytes, small->statistics().memory_bytes);
   // Where arrays start in their pages changes from one to the next; what they take does not.
-  EXPECT_EQ(make_formulation(assemble(unit_box(3, 4)))->memory_bytes(), small->memory_bytes());
-  EXPECT_GT(small->memory_bytes(), 64 * 3 * 8 * 3U);
+  EXPECT_EQ(make_formulation(assemble(unit_box(3, 4)))->statistics().memory_bytes, small->statistics().memory_bytes);
+  EXPECT_GT(small->statistics().memory_bytes, 64 * 3 * 8 * 3U);
 }
 
 }  // namespace

@@ -258,7 +258,7 @@ TEST(NodalSolidsRefused, InPlaneStressAndAsExplosives) {
 TEST(NodalSolidsOffer, TheirFields) {
   auto const names = [](Assembly const& a) {
     std::string all;
-    for (auto const& field : make_formulation(a)->fields()) all += field.name + " ";
+    for (auto const& field : make_formulation(a)->observables().fields()) all += field.name + " ";
     return all;
   };
   for (std::string const name : {"EquivalentPlasticStrain", "Damage", "Temperature", "InternalEnergy"}) {

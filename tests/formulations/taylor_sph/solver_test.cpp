@@ -216,7 +216,7 @@ TEST(TaylorTimeStep, EndsWhereASupportOrALoadDoes) {
   for (int k = 0; k < 3; ++k) time = run(*f, 1, time);
   EXPECT_NEAR(time, 0.0213, 1e-12);  // steps of at most 9 ms
   run(*f, 1, time);
-  EXPECT_NEAR(f->stable_time_step(), f->steady_time_step(), 0);
+  EXPECT_NEAR(f->stable_time_step(), f->step_estimate().stable, 0);
 }
 
 // ---- failure
@@ -326,11 +326,11 @@ TEST(TaylorTwoBodies, MoveAsEachWouldAlone) {
 
 TEST(TaylorSolver, KnowsItsStagesMemoryAndCosts) {
   auto const f = make_formulation(assemble_taylor(unit_box(3, 7)));
-  EXPECT_EQ(f->stages_per_step(), 2);
-  EXPECT_GT(f->memory_bytes(), 343 * (3 + 3 + 6) * 8U);
-  ASSERT_EQ(f->timings().size(), 2u);
-  EXPECT_EQ(f->timings()[1].first, "neighbour_lists");
-  EXPECT_GT(f->timings()[1].second, 0);
+  EXPECT_EQ(f->statistics().stages_per_step, 2);
+  EXPECT_GT(f->statistics().memory_bytes, 343 * (3 + 3 + 6) * 8U);
+  ASSERT_EQ(f->statistics().seconds.size(), 2u);
+  EXPECT_EQ(f->statistics().seconds[1].first, "neighbour_lists");
+  EXPECT_GT(f->statistics().seconds[1].second, 0);
 }
 
 }  // namespace

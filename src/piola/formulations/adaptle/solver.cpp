@@ -7,7 +7,7 @@
 #include "piola/formulations/adaptle/particles.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
 #include "piola/formulations/common/field_checkpoint.hpp"
-#include "piola/formulations/common/surface_loss.hpp"
+#include "piola/formulations/coupled_particles.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
 #include "piola/mechanics/prescribed.hpp"
 #include <cmath>
@@ -50,7 +50,7 @@ void check(Assembly const& assembly) {
   problems.raise_if_any();
 }
 
-class Solver final : public Formulation, public SurfaceLoss {
+class Solver final : public Formulation, public Observables, public CoupledParticles {
  public:
   explicit Solver(Assembly const& assembly)
       : set_(assembly.particles),
@@ -60,10 +60,9 @@ class Solver final : public Formulation, public SurfaceLoss {
     return clip_step_to_end_time(particles_.stable_time_step(),
                                  particles_.next_end_time() - particles_.energy_totals().time);
   }
-  double steady_time_step() const override { return particles_.stable_time_step(); }
-  StepEstimate step_estimate_of_run() const override {
+  StepEstimate step_estimate() const override {
     StepEstimate rule;
-    rule.settled = rule.first = steady_time_step();
+    rule.stable = rule.settled = rule.first = particles_.stable_time_step();
     rule.limit =
         fmt::format("waves: run.cfl h / c with run.cfl = {}; in the run also by viscosity, accelerations and contact",
                     particles_.system().settings.cfl);
@@ -71,6 +70,7 @@ class Solver final : public Formulation, public SurfaceLoss {
   }
   void step(double time, double dt) override { particles_.step(time, dt); }
   void damp(double factor) override { particles_.damp(factor); }
+  CoupledParticles* coupled_particles() override { return this; }
   void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                    std::span<std::array<double, 3>> v) const override {
     particles_.read_motion(ids, x, v);
@@ -93,7 +93,10 @@ class Solver final : public Formulation, public SurfaceLoss {
   double kinetic_energy() const override { return particles_.kinetic_energy(); }
   std::optional<Failure> failure() const override;
   Diagnostics diagnose() const override { return observe(particles_, set_); }
+  Observables const& observables() const override { return *this; }
   std::vector<FieldInfo> fields() const override { return output_field_names(); }
+  std::vector<FieldInfo> fields_of(std::size_t /*body*/) const override { return fields(); }
+  std::vector<RigidState> rigids() const override { return {}; }
   void sample(std::string_view field, std::span<double> values) const override {
     adaptle::sample(particles_, field, values);
   }
@@ -105,14 +108,14 @@ class Solver final : public Formulation, public SurfaceLoss {
   }
   void save(StateWriter& writer) const override;
   void load(StateReader& reader) override;
-  int stages_per_step() const override { return 1; }
-  std::vector<std::pair<std::string, double>> timings() const override {
+  RunStatistics statistics() const override {
     StepTimings const& s = particles_.seconds();
-    return {{"neighbour_lists", s.lists}, {"sweeps", s.sweeps}, {"points", s.points}, {"conversion", s.conversion}};
-  }
-  std::size_t memory_bytes() const override { return particles_.bytes(); }
-  std::optional<RepartitionStatistics> repartition_statistics() const override {
-    return particles_.repartition_statistics();
+    RunStatistics all;
+    all.seconds = {
+        {"neighbour_lists", s.lists}, {"sweeps", s.sweeps}, {"points", s.points}, {"conversion", s.conversion}};
+    all.memory_bytes = particles_.bytes();
+    all.repartition = particles_.repartition_statistics();
+    return all;
   }
 
  private:

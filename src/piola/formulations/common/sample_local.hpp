@@ -2,12 +2,8 @@
 #pragma once
 #include "piola/domain/slot_collectives.hpp"
 #include "piola/formulations/common/output_fields.hpp"
-#include "piola/formulations/formulation.hpp"
 #include <algorithm>
-#include <cstdint>
-#include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 namespace piola {
@@ -37,30 +33,6 @@ void gather_field_on_root(Body const& body, OutputField const& field, std::span<
           std::copy_n(&of[static_cast<std::size_t>(i - part.first) * width], width,
                       &values[static_cast<std::size_t>(body.id(i)) * width]);
       });
-}
-
-/// Ids of the local particles of all bodies; empty on one rank.
-template <class Bodies>
-std::optional<std::vector<std::int64_t>> local_ids(Bodies const& bodies) {
-  if (!comm::is_parallel()) return std::nullopt;
-  std::vector<std::int64_t> ids;
-  for (auto const& body : bodies)
-    for (Index i = body->own().first; i < body->own().last; ++i) ids.push_back(body->id(i));
-  return ids;
-}
-
-/// Implements Formulation::sample_local(): calls sample(body, its number, values of its local particles) body by body.
-template <class Bodies, class F>
-void sample_local_bodies(Formulation const& formulation, Bodies const& bodies, std::string_view field,
-                         std::span<double> values, F const& sample) {
-  if (!comm::is_parallel()) return formulation.sample(field, values);
-  auto const components = static_cast<std::size_t>(info_of(formulation.fields(), field).components);
-  int number = 0;
-  for (auto const& body : bodies) {
-    auto const numbers = static_cast<std::size_t>(body->own().last - body->own().first) * components;
-    sample(*body, number++, values.first(numbers));
-    values = values.subspan(numbers);
-  }
 }
 
 }  // namespace piola

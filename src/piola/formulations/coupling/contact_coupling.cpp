@@ -2,7 +2,7 @@
 #include "piola/formulations/coupling/contact_coupling.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
-#include "piola/formulations/common/surface_loss.hpp"
+#include "piola/formulations/coupled_particles.hpp"
 #include "piola/math/array_conversion.hpp"
 #include "piola/mechanics/prescribed.hpp"
 #include <algorithm>
@@ -55,13 +55,13 @@ void ContactCoupling::read_state(Formulations const& formulations) {
 void ContactCoupling::drop_lost_surfaces(Formulations const& formulations) {
   std::vector<char> lost;
   for (GroupParticles& share : shares_) {
-    auto const* const loss = dynamic_cast<SurfaceLoss const*>(formulations[share.part].get());
-    if (loss == nullptr || loss->surfaces_lost() == share.lost) continue;
-    share.lost = loss->surfaces_lost();
+    CoupledParticles const& particles = *formulations[share.part];
+    if (particles.surfaces_lost() == share.lost) continue;
+    share.lost = particles.surfaces_lost();
     lost.resize(system_.ids().size());
     for (std::size_t k = 0; k < share.at.size(); ++k)
       if (auto const i = static_cast<std::size_t>(share.at[k]);
-          i < lost.size() && loss->has_lost_surface(share.local[k]))
+          i < lost.size() && particles.has_lost_surface(share.local[k]))
         lost[i] = 1;
   }
   if (!lost.empty()) system_.drop(lost);

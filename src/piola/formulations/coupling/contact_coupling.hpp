@@ -20,7 +20,7 @@ namespace piola {
 /// kick-drift-kick formulations this is velocity Verlet with the contact force included.
 class ContactCoupling {
  public:
-  using Formulations = std::vector<std::unique_ptr<Formulation>>;
+  using Formulations = std::vector<CoupledParticles*>;  ///< by part
   ContactCoupling(Assembly const& whole, std::vector<FormulationGroup> const& parts);
 
   /// Evaluates the forces of the current state: before the first step and after loading a checkpoint.

@@ -3,7 +3,7 @@
 #include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/domain/communicator.hpp"
-#include "piola/formulations/common/set_up_checks.hpp"
+#include "piola/formulations/coupled_particles.hpp"
 #include "piola/formulations/coupling/contact_coupling.hpp"
 #include "piola/formulations/coupling/prefixed_state.hpp"
 #include "piola/mechanics/resultants.hpp"
@@ -61,15 +61,19 @@ void add_totals(Diagnostics& sum, Diagnostics const& d, bool first) {
   add_columns(sum.more, d.more);
 }
 
-class CoupledFormulations : public Formulation, public SetUpChecked {
+/// Not std::min: a step that is not a number must reach the main loop.
+double smaller_or_nan(double step, double other) { return std::isnan(step) || other >= step ? step : other; }
+
+class CoupledFormulations : public Formulation, public Observables {
  public:
   CoupledFormulations(Assembly const& whole, std::vector<FormulationGroup> parts,
                       std::vector<std::unique_ptr<Formulation>> formulations)
       : parts_(std::move(parts)),
         formulations_(std::move(formulations)),
         nothing_(whole.supports, whole.loads, whole.rigid_shapes) {
+    for (auto const& formulation : formulations_) coupled_.push_back(formulation->coupled_particles());
     if (!whole.surfaces.empty()) contact_ = std::make_unique<ContactCoupling>(whole, parts_);
-    if (contact_) contact_->look(formulations_);
+    if (contact_) contact_->look(coupled_);
     support_count_ = whole.supports.size();
     for (Load const& load : whole.loads) load_count_ += load.name.empty() ? 0 : 1;
     for (FormulationGroup& part : parts_) {
@@ -80,20 +84,17 @@ class CoupledFormulations : public Formulation, public SetUpChecked {
   }
 
   double stable_time_step() const override {
-    double const step = least(&Formulation::stable_time_step);
+    double step = std::numeric_limits<double>::infinity();
+    for (auto const& formulation : formulations_) step = smaller_or_nan(step, formulation->stable_time_step());
     return contact_ ? contact_->limit(step) : step;
   }
-  double steady_time_step() const override {
-    double const step = least(&Formulation::steady_time_step);
-    return contact_ ? contact_->settled(step) : step;
-  }
-  StepEstimate step_estimate_of_run() const override;
+  StepEstimate step_estimate() const override;
 
   /// Contact and ties act before and after the steps of the parts, when all bodies are at the same time.
   void step(double time, double dt) override {
-    if (contact_) contact_->begin(formulations_, time, dt);
+    if (contact_) contact_->begin(coupled_, time, dt);
     for (auto const& formulation : formulations_) formulation->step(time, dt);
-    if (contact_) contact_->finish(formulations_, time + dt, dt);
+    if (contact_) contact_->finish(coupled_, time + dt, dt);
   }
   void damp(double factor) override {
     for (auto const& formulation : formulations_) formulation->damp(factor);
@@ -107,6 +108,7 @@ class CoupledFormulations : public Formulation, public SetUpChecked {
   std::vector<RigidState> rigids() const override { return contact_ ? contact_->rigids() : std::vector<RigidState>{}; }
   std::optional<Failure> failure() const override;
   Diagnostics diagnose() const override;
+  Observables const& observables() const override { return *this; }
   std::vector<FieldInfo> fields() const override;
   std::vector<FieldInfo> fields_of(std::size_t body) const override;
   void sample(std::string_view field, std::span<double> values) const override;
@@ -126,76 +128,33 @@ class CoupledFormulations : public Formulation, public SetUpChecked {
     }
     if (!contact_) return;
     contact_->load(reader);
-    contact_->look(formulations_);
+    contact_->look(coupled_);
   }
-  int stages_per_step() const override {
-    return static_cast<int>(
-        std::lround(mean([](Formulation const& f) { return static_cast<double>(f.stages_per_step()); })));
-  }
-  std::vector<std::pair<std::string, double>> timings() const override {
-    std::vector<std::pair<std::string, double>> all;
-    for (std::size_t k = 0; k < parts_.size(); ++k)
-      for (auto const& [name, seconds] : formulations_[k]->timings())
-        all.emplace_back(parts_[k].name + "_" + name, seconds);
-    return all;
-  }
-  std::vector<SetUpCheck> set_up_checks() const override {
-    std::vector<SetUpCheck> all;
-    for (auto const& formulation : formulations_)
-      for (SetUpCheck& check : set_up_checks_of(*formulation)) all.push_back(std::move(check));
-    return all;
-  }
-  std::optional<RepartitionStatistics> repartition_statistics() const override {
-    for (auto const& formulation : formulations_)
-      if (auto of_part = formulation->repartition_statistics()) return of_part;  // of one part at most
-    return std::nullopt;
-  }
-  std::size_t memory_bytes() const override {
-    std::size_t sum = 0;
-    for (auto const& formulation : formulations_) sum += formulation->memory_bytes();
-    return sum + (contact_ ? contact_->bytes() : 0);
-  }
+  RunStatistics statistics() const override;
+  CoupledParticles* coupled_particles() override { return nullptr; }
 
  private:
-  double least(double (Formulation::*limit)() const) const {
-    double dt = std::numeric_limits<double>::infinity();
-    // Not std::min: a step that is not a number must reach the main loop.
-    for (auto const& formulation : formulations_) {
-      double const here = ((*formulation).*limit)();
-      if (!(here >= dt)) dt = here;
-      if (std::isnan(dt)) break;
-    }
-    return dt;
-  }
-  /// Over all particles.
-  template <class F>
-  double mean(F const& of) const {
-    double sum = 0, all = 0;
-    for (std::size_t k = 0; k < parts_.size(); ++k) {
-      sum += counts_[k] * of(*formulations_[k]);
-      all += counts_[k];
-    }
-    return all > 0 ? sum / all : 0;
-  }
   std::vector<std::int64_t> owned_of(std::size_t part) const;
   std::vector<Action> actions_of(std::vector<Diagnostics> const& of_parts) const;
   std::vector<FieldInfo> with_contact(std::vector<FieldInfo> all) const;
 
   std::vector<FormulationGroup> parts_;
   std::vector<std::unique_ptr<Formulation>> formulations_;
+  std::vector<CoupledParticles*> coupled_;    ///< of formulations_
   std::unique_ptr<ContactCoupling> contact_;  ///< if there is surface contact
   Resultants nothing_;                        ///< all that can act, in the order of the case, at rest
   std::vector<double> counts_;                ///< particles by part
   std::size_t body_count_ = 0, support_count_ = 0, load_count_ = 0;
 };
 
-StepEstimate CoupledFormulations::step_estimate_of_run() const {
+StepEstimate CoupledFormulations::step_estimate() const {
   StepEstimate rule;
   rule.settled = std::numeric_limits<double>::infinity();
-  double first = rule.settled;
+  double first = rule.settled, stable = rule.settled;
   for (std::size_t k = 0; k < parts_.size(); ++k) {
-    StepEstimate const here = formulations_[k]->step_estimate_of_run();
+    StepEstimate const here = formulations_[k]->step_estimate();
     first = std::min(first, here.first);
+    stable = smaller_or_nan(stable, here.stable);
     if (!(here.settled < rule.settled)) continue;
     rule = here;
     rule.limit += " (" + parts_[k].formulation + ")";
@@ -205,7 +164,26 @@ StepEstimate CoupledFormulations::step_estimate_of_run() const {
     rule.limit += ", with ties between bodies";
   }
   rule.first = std::min(first, rule.settled);
+  rule.stable = contact_ ? contact_->settled(stable) : stable;
   return rule;
+}
+
+/// Stages: the mean over all particles. At most one part can repartition.
+RunStatistics CoupledFormulations::statistics() const {
+  RunStatistics all;
+  double stages = 0, particles = 0;
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    RunStatistics part = formulations_[k]->statistics();
+    stages += counts_[k] * static_cast<double>(part.stages_per_step);
+    particles += counts_[k];
+    for (auto const& [name, seconds] : part.seconds) all.seconds.emplace_back(parts_[k].name + "_" + name, seconds);
+    all.memory_bytes += part.memory_bytes;
+    std::move(part.set_up_checks.begin(), part.set_up_checks.end(), std::back_inserter(all.set_up_checks));
+    if (!all.repartition) all.repartition = std::move(part.repartition);
+  }
+  all.stages_per_step = static_cast<int>(std::lround(particles > 0 ? stages / particles : 0));
+  all.memory_bytes += contact_ ? contact_->bytes() : 0;
+  return all;
 }
 
 std::optional<Failure> CoupledFormulations::failure() const {
@@ -270,7 +248,7 @@ std::vector<Action> CoupledFormulations::actions_of(std::vector<Diagnostics> con
 std::vector<FieldInfo> CoupledFormulations::fields() const {
   std::vector<FieldInfo> all;
   for (auto const& formulation : formulations_)
-    for (FieldInfo& info : formulation->fields())
+    for (FieldInfo& info : formulation->observables().fields())
       if (std::none_of(all.begin(), all.end(), [&](FieldInfo const& known) { return known.name == info.name; }))
         all.push_back(std::move(info));
   return with_contact(std::move(all));
@@ -284,7 +262,7 @@ std::vector<FieldInfo> CoupledFormulations::with_contact(std::vector<FieldInfo> 
 
 std::vector<FieldInfo> CoupledFormulations::fields_of(std::size_t body) const {
   for (std::size_t k = 0; k < parts_.size(); ++k)
-    if (parts_[k].body_in_part(body)) return with_contact(formulations_[k]->fields());
+    if (parts_[k].body_in_part(body)) return with_contact(formulations_[k]->observables().fields());
   return {};
 }
 
@@ -299,12 +277,13 @@ void CoupledFormulations::sample(std::string_view field, std::span<double> value
   std::fill(values.begin(), values.end(), 0.0);
   if (contact_ && contact_->sample(field, values)) return;
   for (std::size_t k = 0; k < parts_.size(); ++k) {
-    auto const fields = formulations_[k]->fields();
+    Observables const& part = formulations_[k]->observables();
+    auto const fields = part.fields();
     FieldInfo const* const info = find_field(fields, field);
     if (info == nullptr) continue;
     std::vector<double> own(wanted ? static_cast<std::size_t>(counts_[k]) * static_cast<std::size_t>(info->components)
                                    : 0);
-    formulations_[k]->sample(field, own);
+    part.sample(field, own);
     if (!wanted) continue;
     for (auto const& block : parts_[k].blocks)
       std::copy_n(own.begin() + block.here * info->components, block.count * info->components,
@@ -334,11 +313,12 @@ void CoupledFormulations::sample_local(std::string_view field, std::span<double>
     return;
   }
   for (std::size_t k = 0; k < parts_.size(); ++k) {
-    auto const ids = formulations_[k]->local_particles();
+    Observables const& part = formulations_[k]->observables();
+    auto const ids = part.local_particles();
     auto const here = values.first((ids ? ids->size() : static_cast<std::size_t>(counts_[k])) * width);
     values = values.subspan(here.size());
-    if (find_field(formulations_[k]->fields(), field) != nullptr)
-      formulations_[k]->sample_local(field, here);
+    if (find_field(part.fields(), field) != nullptr)
+      part.sample_local(field, here);
     else
       std::fill(here.begin(), here.end(), 0.0);
   }
@@ -346,7 +326,7 @@ void CoupledFormulations::sample_local(std::string_view field, std::span<double>
 
 /// Ids of local particles of a part, numbered in the part.
 std::vector<std::int64_t> CoupledFormulations::owned_of(std::size_t part) const {
-  if (auto ids = formulations_[part]->local_particles()) return *std::move(ids);
+  if (auto ids = formulations_[part]->observables().local_particles()) return *std::move(ids);
   std::vector<std::int64_t> all(static_cast<std::size_t>(counts_[part]));
   std::iota(all.begin(), all.end(), std::int64_t{0});
   return all;

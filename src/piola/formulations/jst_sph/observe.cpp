@@ -160,7 +160,7 @@ void sample_local_slots(JstBody const& body, int body_number, std::string_view f
                             [&](auto const& f) { observe_each(body, body_number, field, f); });
 }
 
-void sample(JstBody const& body, int body_number, std::string_view field, std::span<double> values) {
+void sample_on_root(JstBody const& body, int body_number, std::string_view field, std::span<double> values) {
   PIOLA_EXPECTS(body_number >= 0);
   gather_field_on_root(body, find_output_field(field, offered), values,
                        [&](auto const& f) { observe_each(body, body_number, field, f); });

@@ -24,8 +24,8 @@ std::vector<FieldInfo> output_field_names();
 
 /// Gathers one field of one body on rank 0, values[id * components + c]. Collective if the body is distributed. Throws
 /// std::invalid_argument for an unknown field.
-void sample(JstBody const& body, int body_number, std::string_view field, std::span<double> values);
-/// As sample(), for the local particles, slot by slot.
+void sample_on_root(JstBody const& body, int body_number, std::string_view field, std::span<double> values);
+/// As sample_on_root(), for the local particles, slot by slot.
 void sample_local_slots(JstBody const& body, int body_number, std::string_view field, std::span<double> values);
 
 }  // namespace piola::jst_sph

@@ -175,7 +175,7 @@ LazyZeroArray<double> smooth_pressure(NodalBody const& body, std::string_view fi
 
 }  // namespace
 
-void sample(NodalBody const& body, int body_number, std::string_view field, std::span<double> values) {
+void sample_on_root(NodalBody const& body, int body_number, std::string_view field, std::span<double> values) {
   PIOLA_EXPECTS(body_number >= 0);
   OutputField const& found = find_output_field(field, offered);
   LazyZeroArray<double> const smooth = smooth_pressure(body, field);

@@ -25,8 +25,8 @@ std::vector<FieldInfo> output_field_names(bool solids);
 
 /// Gathers one field of one body on rank 0, values[id * components + c]. Collective if the body is distributed. Throws
 /// std::invalid_argument for an unknown field.
-void sample(NodalBody const& body, int body_number, std::string_view field, std::span<double> values);
-/// As sample(), for the local particles only. Collective if the body is distributed.
+void sample_on_root(NodalBody const& body, int body_number, std::string_view field, std::span<double> values);
+/// As sample_on_root(), for the local particles only. Collective if the body is distributed.
 void sample_local_slots(NodalBody const& body, int body_number, std::string_view field, std::span<double> values);
 
 }  // namespace piola::nodal

@@ -5,6 +5,7 @@
 #include "piola/formulations/common/body_resultants.hpp"
 #include "piola/formulations/common/diagnostics_sum.hpp"
 #include "piola/formulations/common/field_checkpoint.hpp"
+#include "piola/formulations/coupled_particles.hpp"
 #include "piola/formulations/taylor_sph/body.hpp"
 #include "piola/formulations/taylor_sph/observe.hpp"
 #include "piola/materials/laws.hpp"
@@ -45,8 +46,8 @@ void check_on_ranks(Body const& body, Options const& options) {
                   body.name, particles, most));
 }
 
-/// Taylor-SPH of one or more independent bodies.
-class Solver final : public Formulation {
+/// Taylor-SPH of one or more independent bodies. All ranks have the same state; rank 0 evaluates and saves it.
+class Solver final : public Formulation, public ReplicatedObservables, public CoupledParticles {
  public:
   explicit Solver(Assembly const& assembly)
       : particles_(assembly.particles.size()),
@@ -62,15 +63,10 @@ class Solver final : public Formulation {
     set_ = assembly.particles;
   }
 
-  double stable_time_step() const override { return clip_step_to_end_time_of(bodies_, time_, steady_time_step()); }
-  double steady_time_step() const override {
-    double dt = std::numeric_limits<double>::infinity();
-    for (auto const& body : bodies_) dt = std::min(dt, body->stable_time_step());
-    return dt;
-  }
-  StepEstimate step_estimate_of_run() const override {
+  double stable_time_step() const override { return clip_step_to_end_time_of(bodies_, time_, step_limit()); }
+  StepEstimate step_estimate() const override {
     StepEstimate rule;
-    rule.settled = rule.first = steady_time_step();
+    rule.stable = rule.settled = rule.first = step_limit();
     rule.limit = fmt::format("waves: run.cfl spacing / c with run.cfl = {}", bodies_.front()->options().cfl);
     return rule;
   }
@@ -86,6 +82,7 @@ class Solver final : public Formulation {
   void damp(double factor) override {
     for (auto const& body : bodies_) body->damp(factor);
   }
+  CoupledParticles* coupled_particles() override { return this; }
   void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                    std::span<std::array<double, 3>> v) const override {
     visit(ids, [&](std::size_t k, TaylorBody const& body, Index i) {
@@ -106,6 +103,7 @@ class Solver final : public Formulation {
 
   std::optional<Failure> failure() const override;
   Diagnostics diagnose() const override {
+    if (comm::rank() != 0) return {};
     DiagnosticsSum all;
     std::array<double, 5> more{};
     for (auto const& body : bodies_) {
@@ -126,8 +124,10 @@ class Solver final : public Formulation {
     return d;
   }
 
+  Observables const& observables() const override { return *this; }
   std::vector<FieldInfo> fields() const override { return output_field_names(); }
   void sample(std::string_view field, std::span<double> values) const override {
+    if (comm::rank() != 0) return;
     for (std::size_t k = 0; k < bodies_.size(); ++k)
       taylor_sph::sample(*bodies_[k], static_cast<int>(k), field, values);
   }
@@ -135,20 +135,26 @@ class Solver final : public Formulation {
   void save(StateWriter& writer) const override;
   void load(StateReader& reader) override;
 
-  int stages_per_step() const override { return 2; }
-  std::vector<std::pair<std::string, double>> timings() const override {
+  RunStatistics statistics() const override {
     SetupSeconds sum;
     for (auto const& body : bodies_) {
       sum.triangulation += body->seconds().triangulation;
       sum.lists += body->seconds().lists;
     }
-    return {{"triangulation", sum.triangulation}, {"neighbour_lists", sum.lists}};
-  }
-  std::size_t memory_bytes() const override {
-    return sum_over_bodies(bodies_, [](auto const& body) { return body.bytes(); });
+    RunStatistics all;
+    all.stages_per_step = 2;
+    all.seconds = {{"triangulation", sum.triangulation}, {"neighbour_lists", sum.lists}};
+    all.memory_bytes = sum_over_bodies(bodies_, [](auto const& body) { return body.bytes(); });
+    return all;
   }
 
  private:
+  /// The smallest stable step of all bodies [s].
+  double step_limit() const {
+    double dt = std::numeric_limits<double>::infinity();
+    for (auto const& body : bodies_) dt = std::min(dt, body->stable_time_step());
+    return dt;
+  }
   /// f(k, body, its particle) for each ids[k].
   template <class F>
   void visit(std::span<std::int64_t const> ids, F const& f) const {
@@ -193,6 +199,7 @@ std::optional<Failure> Solver::failure() const {
 }
 
 void Solver::save(StateWriter& writer) const {
+  if (comm::rank() != 0) return;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     save_body(*bodies_[k], k, writer);
   }
