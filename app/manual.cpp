@@ -6,8 +6,8 @@
 #include "piola/formulations/registry.hpp"
 #include "piola/input/case_keys.hpp"
 #include "piola/input/history_names.hpp"
+#include "piola/input/material_library.hpp"
 #include "piola/kernels/registry.hpp"
-#include "piola/materials/library.hpp"
 #include "piola/materials/registry.hpp"
 #include "piola/materials/validity.hpp"
 #include <algorithm>
@@ -194,7 +194,7 @@ std::string describe_materials(std::string const& name, Layout layout) {
     known.emplace_back(law.name);
     if (name.empty() || name == law.name) text += describe_law(law, layout);
   }
-  for (LibraryMaterial const& material : material_library()) {
+  for (LibraryMaterial const& material : material_library().materials) {
     known.emplace_back(material.name);
     if (name == material.name) text += describe_set(material);
   }
@@ -226,7 +226,7 @@ std::string describe_case(std::string const& section, Layout layout) {
 }
 
 std::string overview() {
-  return short_list("materials", laws()) + short_list("materials of the library", material_library()) +
+  return short_list("materials", laws()) + short_list("materials of the library", material_library().materials) +
          short_list("kernels", kernels()) + short_list("formulations", formulations()) +
          "piola describe material NAME, and so on, tells more; piola describe case lists the keys of a case file.\n";
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
-#include "piola/materials/library.hpp"
+#include "piola/input/material_library.hpp"
 #include "manual.hpp"
 #include <fmt/format.h>
 #include <vector>
@@ -47,7 +47,8 @@ std::string set_section(LibraryMaterial const& material) {
 
 std::string sources_section() {
   std::string text = "\n## Sources\n\n| source | reference |\n|---|---|\n";
-  for (LibrarySource const& source : library_sources()) text += fmt::format("| {} | {} |\n", source.key, source.text);
+  for (LibrarySource const& source : material_library().sources)
+    text += fmt::format("| {} | {} |\n", source.key, source.text);
   return text;
 }
 
@@ -65,7 +66,7 @@ std::string library_page() {
       "differ by measurement: the wave speeds that they give are within 6 % of each other, or the range says so.\n"
       "Fracture strains are those of specimens; in coarse models they depend on the spacing of particles.\n\n";
   text += library_table(Layout::markdown);
-  for (LibraryMaterial const& material : material_library()) text += set_section(material);
+  for (LibraryMaterial const& material : material_library().materials) text += set_section(material);
   return text + sources_section();
 }
 
@@ -74,7 +75,7 @@ std::string library_page() {
 std::string library_table(Layout layout) {
   bool const markdown = layout == Layout::markdown;
   std::string text = markdown ? "| name | law | what |\n|---|---|---|\n" : "";
-  for (LibraryMaterial const& m : material_library()) {
+  for (LibraryMaterial const& m : material_library().materials) {
     text += markdown ? fmt::format("| `{}` | `{}` | {} |\n", m.name, m.law, m.about)
                      : fmt::format("  {:<27} {}: {}\n", m.name, m.law, m.about);
   }
@@ -91,7 +92,8 @@ std::string describe_set(LibraryMaterial const& material) {
       "  range: {}\n  lacks: {}\n  sources (read: the source itself; quoted: a text that quotes it; "
       "unread: no text):\n",
       material.range, lacks_text(material));
-  for (LibrarySource const& source : material.sources()) text += fmt::format("    {}: {}\n", source.key, source.text);
+  for (LibrarySource const& source : material_library().sources_of(material))
+    text += fmt::format("    {}: {}\n", source.key, source.text);
   return text;
 }
 
@@ -103,7 +105,7 @@ void refuse_renamed(std::string const& name) {
 std::string describe_library(std::string const& name, Layout layout) {
   if (name.empty()) return layout == Layout::markdown ? library_page() : library_table(layout);
   std::vector<std::string> known;
-  for (LibraryMaterial const& material : material_library()) {
+  for (LibraryMaterial const& material : material_library().materials) {
     known.emplace_back(material.name);
     if (name == material.name) return layout == Layout::markdown ? set_section(material) : describe_set(material);
   }

@@ -58,6 +58,7 @@ TABLES = key_tables()
 TABLES["body.material"] = TABLES["body.material"] | names_after("material")
 TABLES["body.formulation"] = TABLES["body.formulation"] | names_after("formulation")
 FREE = {"constants", "body.define"}
+LIBRARY = {"about", "range", "lacks", "shear_modulus", "bulk_modulus"}  # keys that materials of library files have, too
 CHECKS = set(re.findall(r'"([a-z_]+)"', (ROOT / "src/piola/verification/checks.cpp").read_text()))
 FIELDS = listed("Fields of frames and pictures")
 COLUMNS = listed("Columns of history.csv") | set(re.findall(r'DiagnosticInfo\{"(\w+)"', "\n".join(
@@ -143,6 +144,9 @@ def check_blocks(page, text):
             elif "parameters" in table:  # of a study
                 for key in table["parameters"]:
                     check_path(page, line, key)
+            elif table.keys() & {"sources", "material"} == {"sources", "material"}:  # a library file
+                for material in table["material"]:
+                    check_table(page, line, {k: v for k, v in material.items() if k not in LIBRARY}, "body.material")
             else:
                 check_fragment(page, line, table)
 
@@ -234,7 +238,7 @@ def check_line(page, number, line):
             check_path(page, number, code.split("=")[0])
         if re.match(r"(\S*/)?piola [a-z]", code):
             check_command(page, number, code)
-        if re.fullmatch(r"(src|tests|cases|docs|tools|app|bench|cmake)/[\w./-]+", code):
+        if re.fullmatch(r"(src|tests|cases|docs|tools|app|bench|cmake|data)/[\w./-]+", code):
             counts["files"] += 1
             place = ROOT / code
             if not (place.parent if "my_" in code else place).exists():

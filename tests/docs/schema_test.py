@@ -19,7 +19,7 @@ if not os.access(PROGRAM, os.X_OK):
 TYPES = {"object": dict, "array": list, "string": str, "boolean": bool, "integer": int, "number": (int, float)}
 KNOWN = {"$schema", "title", "description", "definitions", "type", "enum", "const", "properties", "required",
          "additionalProperties", "items", "minItems", "maxItems", "minimum", "maximum", "exclusiveMinimum",
-         "exclusiveMaximum", "anyOf", "oneOf", "allOf", "$ref"}
+         "exclusiveMaximum", "anyOf", "oneOf", "allOf", "not", "$ref"}
 failures = 0
 
 
@@ -78,6 +78,8 @@ def faults(value, schema, path):
             found += faults(item, schema.get("items", {}), f"{path}[{k}]")
     for part in schema.get("allOf", []):
         found += faults(value, part, path)
+    if "not" in schema and not faults(value, schema["not"], path):
+        found.append(f"{path} is {value!r}, which is not allowed")
     for word in ("anyOf", "oneOf"):
         if word in schema:
             tried = [faults(value, part, path) for part in schema[word]]
@@ -138,6 +140,10 @@ for good in ['end = 1, threads = "auto"', 'end = 1, guards = "off"', 'end = 1, r
     check(faults_of(SAMPLE.replace('end = "1 s"', good)) == [], good)
 check(faults_of(SAMPLE.replace("law = \"neo_hookean\", density = 1, youngs_modulus = 1, poissons_ratio = 0.3",
                                'name = "steel_4340"')) == [], "a material of the library")
+own = SAMPLE.replace("law = \"neo_hookean\", density = 1, youngs_modulus = 1, poissons_ratio = 0.3",
+                     'name = "my_alloy", density = 1')
+check(faults_of(own) != [], "a material of no library")
+check(faults_of('library = ["my-alloys.toml"]\n' + own) == [], "a material of a library of the case")
 
 # Every key of the reference is in the schema, with what it means.
 keys = re.findall(r"^\| `(\w+)` \|", (ROOT / "docs/user/case-reference.md").read_text(), re.M)

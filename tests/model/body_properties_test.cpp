@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/model/body_properties.hpp"
-#include "piola/materials/library.hpp"
+#include "piola/input/material_library.hpp"
 #include "piola/model/case_particles.hpp"
 #include "support/key_words.hpp"
 #include "support/sample_case.hpp"
@@ -45,7 +45,7 @@ TEST(CaseFacts, MassWavesAndStepFollowFromTheCase) {
 TEST(CaseFacts, SolidsInRateFormHaveMassAndWavesToo) {
   CaseSpec spec = read_case_text(test::sample_case(), "case.toml");
   spec.bodies[0].law = "isotropic_hardening";
-  spec.bodies[0].material = parameters_of(*find_material("steel_linear_hardening"));
+  spec.bodies[0].material = parameters_of(*material_library().find("steel_linear_hardening"));
   BodyProperties const body = body_properties(spec, make_particles(spec)).at(0);
   EXPECT_NEAR(body.mass, 6 * 7870, 1e-8);
   EXPECT_NEAR(body.p_wave, std::sqrt(200e9 * 0.7 / (1.3 * 0.4 * 7870)), 1e-8);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One case per rule of input/plausibility.hpp that breaks it, beside a good case that breaks none.
+#include "piola/input/material_library.hpp"
 #include "piola/input/plausibility.hpp"
-#include "piola/materials/library.hpp"
 #include "piola/model/body_properties.hpp"
 #include "piola/model/case_particles.hpp"
 #include "support/places.hpp"
@@ -184,7 +184,7 @@ TEST(Slips, FormulasThatStopBeingNumbersAreSeen) {
 
 /// Sets of the library are of real materials.
 TEST(Slips, NoMaterialOfTheLibraryIsOdd) {
-  for (LibraryMaterial const& material : material_library()) {
+  for (LibraryMaterial const& material : material_library().materials) {
     CaseSpec spec = read_case_text(test::sample_case(), "case.toml");
     spec.bodies[0].law = std::string(material.law);
     spec.bodies[0].material = parameters_of(material);

@@ -79,16 +79,26 @@ fs::path place_of_kept(KeptFile const& file, fs::path const& results, Place cons
 }
 
 void point_to_kept(Node& node, std::vector<KeptFile> const& list, fs::path const& results, Problems& problems) {
+  auto const point = [&](Node& text) {
+    KeptFile const* const file = text.is_text() ? find_kept(list, text.text) : nullptr;
+    if (file != nullptr) text.found_at = place_of_kept(*file, results, text.place, problems).string();
+  };
   for (Node::Entry& entry : node.entries) {
-    bool const names_file = entry.key == "file" && entry.value.is_text();
-    KeptFile const* const file = names_file ? find_kept(list, entry.value.text) : nullptr;
-    if (file != nullptr) entry.value.found_at = place_of_kept(*file, results, entry.value.place, problems).string();
+    if (entry.key == "file") point(entry.value);
+    if (entry.key == "library")
+      for (Node& item : entry.value.items) point(item);
     point_to_kept(entry.value, list, results, problems);
   }
   for (Node& item : node.items) point_to_kept(item, list, results, problems);
 }
 
 }  // namespace
+
+CaseFile case_file(Node const& text) {
+  if (!text.found_at.empty()) return {text.text, text.found_at};
+  fs::path const base = text.base.empty() ? text.place.file : text.base;
+  return {text.text, base.parent_path() / text.text};
+}
 
 CaseFile case_file(Section const& section, std::string const& given) {
   Node const* const node = section.node().find("file");
@@ -120,6 +130,7 @@ std::vector<CaseFile> files_of(CaseSpec const& spec) {
       if (std::none_of(all.begin(), all.end(), [&](CaseFile const& other) { return other.given == file.given; }))
         all.push_back(file);
   };
+  add(spec.library_files);
   for (BodySpec const& body : spec.bodies) add(body.shape.files);
   for (RegionSpec const& region : spec.regions) add(region.files);
   return all;

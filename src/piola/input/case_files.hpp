@@ -29,6 +29,8 @@ struct KeptFile {
 /// Path of the file that the key `file` of a section names: as found by use_kept_files(), else at its path, which is
 /// relative to the case file.
 CaseFile case_file(Section const& section, std::string const& given);
+/// As case_file(), for a text that names a file.
+CaseFile case_file(Node const& text);
 
 /// Hash of the content of a file, 16 hexadecimal digits (math/digest.hpp). Throws FileError if it cannot be read.
 std::string content_hash(std::filesystem::path const& path);
@@ -46,8 +48,9 @@ std::string kept_name(std::size_t number, std::string const& given);
 std::string text_of_list(std::vector<KeptFile> const& files);
 std::vector<KeptFile> read_kept_list(std::filesystem::path const& results);
 
-/// For the case.toml of a results folder: every value of a key `file` that is in the list points to the copy, or else
-/// to the file where it was. A problem for each that is missing or has another content than when the run began.
+/// For the case.toml of a results folder: every value of a key `file` or `library` that is in the list points to the
+/// copy, or else to the file where it was. A problem for each that is missing or has another content than when the run
+/// began.
 void use_kept_files(Node& root, std::filesystem::path const& results, Problems& problems);
 
 /// A problem for each file of the case that is not the one that the run in a results folder began with.

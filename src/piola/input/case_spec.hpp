@@ -312,6 +312,7 @@ struct CaseSpec {
   std::vector<ProbeSpec> probes;
   std::vector<QuantitySpec> quantities;
   OutputSpec output;
+  std::vector<CaseFile> library_files;  ///< key `library`; bodies hold what they take from them
 };
 
 }  // namespace piola

@@ -26,6 +26,7 @@ constexpr std::array body_keys{
             "none",
             "named numbers for formulas: name = \"105 rad/s\" or a number in SI units",
             {}},
+    KeyInfo{"", "library", list, "", {}, "none", "files with materials of your own, relative to the case", {}},
     KeyInfo{"", "run", table, "", {}, "", "how long and how to run", {}},
     KeyInfo{"", "region", list, "", {}, "none", "places with names", {}},
     KeyInfo{"", "body", list, "", {}, "", "the bodies", {}},

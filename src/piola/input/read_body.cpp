@@ -142,14 +142,14 @@ std::vector<Definition> read_definitions(Value const& value, Names const& names,
   return known.definitions;
 }
 
-BodySpec read_body(Section const& section, Names const& common, BodyNames& names) {
+BodySpec read_body(Section const& section, Names const& common, MaterialLibrary const& library, BodyNames& names) {
   BodySpec body;
   section.read("name", body.name);
   names.names = common;
   std::size_t const before = section.problems().count();
   if (auto const shape = section.table("shape")) body.shape = read_shape(*shape, names.names);
   bool const usable = section.has("shape") && section.problems().count() == before;
-  if (auto const material = section.table("material")) read_material(*material, body);
+  if (auto const material = section.table("material")) read_material(*material, library, body);
   names.name = body.name;
   names.dimension = body.shape.dimension;
   names.shape = body.shape;

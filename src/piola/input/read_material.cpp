@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
 #include "piola/input/sections.hpp"
-#include "piola/materials/library.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 
 namespace piola {
 namespace {
-
-std::vector<std::string> law_names() {
-  std::vector<std::string> names;
-  for (LawInfo const& law : laws()) names.emplace_back(law.name);
-  return names;
-}
 
 std::vector<std::string> formulation_names() {
   std::vector<std::string> names;
@@ -20,9 +13,9 @@ std::vector<std::string> formulation_names() {
   return names;
 }
 
-std::vector<std::string> material_names() {
+std::vector<std::string> material_names(MaterialLibrary const& library) {
   std::vector<std::string> names;
-  for (LibraryMaterial const& material : material_library()) names.emplace_back(material.name);
+  for (LibraryMaterial const& material : library.materials) names.push_back(material.name);
   return names;
 }
 
@@ -33,19 +26,20 @@ std::string about_parameter(Parameter const& parameter) {
   return allowed.empty() ? text : text + ", " + allowed;
 }
 
-std::optional<double> read_parameter(Node const& table, std::string const& section, Parameter const& parameter,
-                                     Problems& problems) {
-  Node const* const node = table.find(parameter.name);
+std::optional<double> read_parameter(Section const& section, Parameter const& parameter) {
+  Node const* const node = section.node().find(parameter.name);
   if (node == nullptr) return std::nullopt;
-  return read_number({*node, section + "." + std::string(parameter.name)}, parameter.unit, parameter.allowed, problems);
+  return read_number({*node, section.name_of(parameter.name)}, parameter.unit, parameter.allowed, section.problems());
 }
 
-/// Reads the words and numbers of one material; those of the library come first, if it has a name.
+/// Reads the words and numbers of one material; those of the library come first, if it has a name. `keys`: the others
+/// of a table of a library file; empty in a case.
 class MaterialReader {
  public:
-  MaterialReader(Section const& section, LawInfo const& law, std::optional<LibraryMaterial> const& base)
-      : section_(section), law_(law), base_(base) {
-    if (base) material_ = parameters_of(*base);
+  MaterialReader(Section const& section, LawInfo const& law, LibraryMaterial const* base,
+                 std::vector<std::string> keys = {})
+      : section_(section), law_(law), base_(base), in_library_(!keys.empty()), keys_(std::move(keys)) {
+    if (base != nullptr) material_ = parameters_of(*base);
     material_.law = law.index;
   }
 
@@ -79,14 +73,18 @@ class MaterialReader {
     bool const given = section_.has(key), counts = applies(law_, parameter, material_) || unclear(parameter);
     if (counts || given) keys_.push_back(key);
     if (given && !counts) return report_useless(parameter);
-    bool const from_library = base_ && base_->number(key);
+    bool const from_library = base_ != nullptr && base_->number(key);
     if (!from_library) material_.value[i] = parameter.required() ? 0 : parameter.default_value;
-    if (auto const number = read_parameter(section_.node(), "body.material", parameter, section_.problems())) {
+    if (auto const number = read_parameter(section_, parameter)) {
       material_.value[i] = *number;
     } else if (parameter.required() && !given && counts && !unclear(parameter) && !from_library) {
-      std::string const example = parameter.unit == "1" ? "..." : "\"... " + std::string(parameter.unit) + "\"";
-      section_.report_missing(key, about_parameter(parameter), key + " = " + example);
+      section_.report_missing(key, about_parameter(parameter), key + " = " + example_of(parameter));
     }
+  }
+
+  std::string example_of(Parameter const& parameter) const {
+    std::string const number = parameter.unit == "1" ? "..." : "\"... " + std::string(parameter.unit) + "\"";
+    return in_library_ ? "{ value = " + number + ", source = \"...\", checked = \"read\" }" : number;
   }
 
   /// Failure by spall needs a stress at which it comes.
@@ -114,7 +112,8 @@ class MaterialReader {
 
   Section const& section_;
   LawInfo law_;
-  std::optional<LibraryMaterial> base_;
+  LibraryMaterial const* base_;
+  bool in_library_;
   MaterialParameters material_;
   std::vector<std::string> keys_;
   std::vector<std::string_view> unclear_;  ///< choices whose word could not be read
@@ -130,14 +129,15 @@ bool is_renamed(Value const& name, Problems& problems) {
 }
 
 /// The law of the key `law`, or of the material of the library that the key `name` names.
-std::optional<std::string> law_name(Section const& section, std::optional<LibraryMaterial>& base) {
+std::optional<std::string> law_name(Section const& section, MaterialLibrary const& library,
+                                    LibraryMaterial const*& base) {
   if (auto const name = section.find("name")) {
     section.refuse("law", "is that of the material of the library when \"name\" is given");
-    if (is_renamed(*name, section.problems())) return std::nullopt;
-    auto const word = read_word(*name, material_names(), section.problems());
+    base = library.find(name->node.text);
+    if (base == nullptr && is_renamed(*name, section.problems())) return std::nullopt;
+    auto const word = read_word(*name, material_names(library), section.problems());
     if (!word) return std::nullopt;
-    base = find_material(*word);
-    return std::string(base->law);
+    return base->law;
   }
   if (auto const law = section.find("law")) return read_word(*law, law_names(), section.problems());
   section.report_missing("law", "name of the law; or \"name\", a material of the library", "law = \"...\"");
@@ -161,9 +161,19 @@ std::vector<std::string> refuse_removed(Section const& section, std::span<Remove
 
 }  // namespace
 
-void read_material(Section const& section, BodySpec& body) {
-  std::optional<LibraryMaterial> base;
-  auto const name = law_name(section, base);
+std::vector<std::string> law_names() {
+  std::vector<std::string> names;
+  for (LawInfo const& law : laws()) names.emplace_back(law.name);
+  return names;
+}
+
+MaterialParameters read_law_values(Section const& section, LawInfo const& law, std::vector<std::string> keys) {
+  return MaterialReader(section, law, nullptr, std::move(keys)).read();
+}
+
+void read_material(Section const& section, MaterialLibrary const& library, BodySpec& body) {
+  LibraryMaterial const* base = nullptr;
+  auto const name = law_name(section, library, base);
   if (!name) return;
   body.law = *name;
   body.material = MaterialReader(section, *find_law(*name), base).read();
@@ -193,7 +203,7 @@ FormulationSpec read_formulation(Section const& section, Names const& names) {
   std::vector<std::string> keys, removed = refuse_removed(section, info.removed);
   for (Parameter const& parameter : info.parameters) {
     keys.emplace_back(parameter.name);
-    auto const number = read_parameter(section.node(), "body.formulation", parameter, section.problems());
+    auto const number = read_parameter(section, parameter);
     if (number) spec.numbers.emplace(parameter.name, *number);
   }
   for (Choice const& choice : info.choices) {

@@ -16,7 +16,8 @@ std::optional<std::size_t> shape_region(std::string const& condition, std::vecto
   return static_cast<std::size_t>(found - regions.begin());
 }
 
-PartSpec read_part(Section const& section, BodyNames const& body, std::vector<RegionSpec> const& regions) {
+PartSpec read_part(Section const& section, BodyNames const& body, std::vector<RegionSpec> const& regions,
+                   MaterialLibrary const& library) {
   PartSpec part;
   section.read("name", part.name);
   if (auto where = section.formula("where", body.names)) {
@@ -31,7 +32,7 @@ PartSpec read_part(Section const& section, BodyNames const& body, std::vector<Re
   if (auto const value = section.find("material")) {
     if (value->node.is_table()) {
       BodySpec of;
-      read_material(Section(value->node, "body.material", section.problems()), of);
+      read_material(Section(value->node, "body.material", section.problems()), library, of);
       part.material = of.material;
       part.law = of.law;
     } else {
@@ -46,8 +47,8 @@ PartSpec read_part(Section const& section, BodyNames const& body, std::vector<Re
 
 }  // namespace
 
-std::vector<PartSpec> read_parts(Section const& section, BodyNames const& body,
-                                 std::vector<RegionSpec> const& regions) {
+std::vector<PartSpec> read_parts(Section const& section, BodyNames const& body, std::vector<RegionSpec> const& regions,
+                                 MaterialLibrary const& library) {
   std::vector<PartSpec> parts;
   auto const value = section.find("part");
   if (!value) return parts;
@@ -60,7 +61,7 @@ std::vector<PartSpec> read_parts(Section const& section, BodyNames const& body,
                              item.name + " is " + shown(item.node) + " (allowed: a table) - write [[body.part]]");
       continue;
     }
-    parts.push_back(read_part(Section(item.node, "body.part", section.problems()), body, regions));
+    parts.push_back(read_part(Section(item.node, "body.part", section.problems()), body, regions, library));
     if (parts.back().name.empty()) parts.back().name = "part_" + std::to_string(k + 1);
   }
   return parts;

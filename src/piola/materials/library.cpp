@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/materials/library.hpp"
 #include "piola/base/contracts.hpp"
-#include "piola/materials/library_sets.hpp"
 #include <algorithm>
 
 namespace piola {
@@ -13,33 +12,9 @@ constexpr std::array renamed{RenamedMaterial{"aluminium_adaptle_3_2", "aluminium
                              RenamedMaterial{"aluminium_adaptle_3_3", "aluminium_spall"},
                              RenamedMaterial{"copper_taylor_bar", "copper_linear_hardening"}};
 
-std::vector<LibraryMaterial> all_sets() {
-  std::vector<LibraryMaterial> all;
-  for (auto const& some :
-       {library::steels(), library::aluminium_alloys(), library::other_metals(), library::high_rate_metals(),
-        library::non_metals(), library::brittle(), library::explosives()})
-    all.insert(all.end(), some.begin(), some.end());
-  return all;
-}
-
-LibrarySource source_of(std::string_view key) {
-  auto const all = library_sources();
-  auto const found =
-      std::find_if(all.begin(), all.end(), [&](LibrarySource const& source) { return source.key == key; });
-  PIOLA_EXPECTS(found != all.end());
-  return *found;
-}
-
 }  // namespace
 
-std::string_view checked_text(Checked checked) {
-  switch (checked) {
-    case Checked::read: return "read";
-    case Checked::quoted: return "quoted";
-    case Checked::unread: return "unread";
-    default: return "chosen";
-  }
-}
+std::string_view checked_text(Checked checked) { return checked_words[static_cast<std::size_t>(checked)]; }
 
 std::optional<std::string_view> LibraryMaterial::word(std::string_view choice) const {
   for (LibraryWord const& given : words)
@@ -53,25 +28,29 @@ std::optional<double> LibraryMaterial::number(std::string_view parameter) const 
   return std::nullopt;
 }
 
-std::vector<LibrarySource> LibraryMaterial::sources() const {
+LibraryMaterial const* MaterialLibrary::find(std::string_view name) const {
+  for (LibraryMaterial const& material : materials)
+    if (material.name == name) return &material;
+  return nullptr;
+}
+
+LibrarySource const* MaterialLibrary::find_source(std::string_view key) const {
+  for (LibrarySource const& source : sources)
+    if (source.key == key) return &source;
+  return nullptr;
+}
+
+std::vector<LibrarySource> MaterialLibrary::sources_of(LibraryMaterial const& material) const {
   std::vector<LibrarySource> found;
-  for (LibraryNumber const& given : numbers) {
+  for (LibraryNumber const& given : material.numbers) {
     bool const known = std::any_of(found.begin(), found.end(),
                                    [&](LibrarySource const& source) { return source.key == given.source; });
-    if (!known) found.push_back(source_of(given.source));
+    if (known) continue;
+    LibrarySource const* const source = find_source(given.source);
+    PIOLA_EXPECTS(source != nullptr);
+    found.push_back(*source);
   }
   return found;
-}
-
-std::span<LibraryMaterial const> material_library() {
-  static std::vector<LibraryMaterial> const all = all_sets();
-  return all;
-}
-
-std::optional<LibraryMaterial> find_material(std::string_view name) {
-  for (LibraryMaterial const& material : material_library())
-    if (material.name == name) return material;
-  return std::nullopt;
 }
 
 std::optional<std::string_view> renamed_material(std::string_view name) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/materials/registry.hpp"
+#include <array>
 #include <optional>
-#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -15,49 +16,56 @@ enum class Checked {
   unread,  ///< not checked: entered from knowledge of the source
   chosen   ///< a choice, not a measurement
 };
+/// The words of library files for them, in their order.
+inline constexpr std::array<std::string_view, 4> checked_words{"read", "quoted", "unread", "chosen"};
 std::string_view checked_text(Checked checked);
 
 /// Source of numbers in the library.
 struct LibrarySource {
-  std::string_view key;   ///< short name, as `LibraryNumber::source` gives it
-  std::string_view text;  ///< full reference
+  std::string key;   ///< short name, as `LibraryNumber::source` gives it
+  std::string text;  ///< full reference
 };
 
 /// A word or a number of a material of the library, by the name of its choice or parameter.
 struct LibraryWord {
-  std::string_view choice, word;
+  std::string choice, word;
 };
 struct LibraryNumber {
-  std::string_view parameter;
-  double value;             ///< SI
-  std::string_view source;  ///< LibrarySource::key
-  Checked checked;
+  std::string parameter;
+  double value = 0;    ///< SI
+  std::string source;  ///< LibrarySource::key
+  Checked checked = Checked::unread;
 };
 
 /// A material that a case file names instead of giving a law and numbers: `material = { name = "steel_4340" }`.
 struct LibraryMaterial {
-  std::string_view name;
-  std::string_view about;  ///< one line
-  std::string_view range;  ///< for which rates, temperatures, pressures and shapes the numbers hold
-  std::string_view lacks;  ///< effects that the material has and the set lacks; empty: none that matters in an impact
-  std::string_view law;    ///< LawInfo::name
-  std::span<LibraryWord const> words;
-  std::span<LibraryNumber const> numbers;
+  std::string name;
+  std::string about;  ///< one line
+  std::string range;  ///< for which rates, temperatures, pressures and shapes the numbers hold
+  std::string lacks;  ///< effects that the material has and the set lacks; empty: none that matters in an impact
+  std::string law;    ///< LawInfo::name
+  std::vector<LibraryWord> words;
+  std::vector<LibraryNumber> numbers;
 
   std::optional<std::string_view> word(std::string_view choice) const;
   std::optional<double> number(std::string_view parameter) const;
-  /// Its sources, each once, in the order of its numbers.
-  std::vector<LibrarySource> sources() const;
+};
+
+/// Materials, and the sources of their numbers.
+struct MaterialLibrary {
+  std::vector<LibraryMaterial> materials;
+  std::vector<LibrarySource> sources;
+
+  LibraryMaterial const* find(std::string_view name) const;      ///< null if there is none
+  LibrarySource const* find_source(std::string_view key) const;  ///< null if there is none
+  /// Sources of a material, each once, in the order of its numbers.
+  std::vector<LibrarySource> sources_of(LibraryMaterial const& material) const;
 };
 
 /// A material that had another name in earlier versions.
 struct RenamedMaterial {
   std::string_view before, now;
 };
-
-std::span<LibraryMaterial const> material_library();
-std::span<LibrarySource const> library_sources();
-std::optional<LibraryMaterial> find_material(std::string_view name);
 /// The present name of a material with the former name `name`.
 std::optional<std::string_view> renamed_material(std::string_view name);
 

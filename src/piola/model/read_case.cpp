@@ -5,6 +5,7 @@
 #include "piola/input/case_files.hpp"
 #include "piola/input/document_limits.hpp"
 #include "piola/input/identify.hpp"
+#include "piola/input/material_library.hpp"
 #include "piola/input/sections.hpp"
 #include "piola/model/case_particles.hpp"
 #include "piola/model/clearance.hpp"
@@ -156,12 +157,13 @@ Names read_regions(Section const& top, std::map<std::string, double> const& cons
 
 void read_bodies(Section const& top, Names const& common, CaseSpec& spec, std::vector<BodyNames>& names,
                  ReadLimits const& limits) {
+  MaterialLibrary const library = read_case_library(top, spec.library_files);
   std::size_t const before = top.problems().count();
   std::vector<Section> const sections = tables_of(top, "body");
   for (Section const& section : sections) {
-    spec.bodies.push_back(read_body(section, common, names.emplace_back()));
+    spec.bodies.push_back(read_body(section, common, library, names.emplace_back()));
     BodySpec& body = spec.bodies.back();
-    body.parts = read_parts(section, names.back(), spec.regions);
+    body.parts = read_parts(section, names.back(), spec.regions, library);
     if (body.shape.arrangement == ShapeSpec::Arrangement::packed) cut_by_parts(body, spec.regions);
   }
   refuse_twins(sections, spec.bodies, "body");

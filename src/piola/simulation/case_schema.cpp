@@ -3,7 +3,7 @@
 #include "piola/base/version.hpp"
 #include "piola/formulations/registry.hpp"
 #include "piola/input/case_keys.hpp"
-#include "piola/materials/library.hpp"
+#include "piola/input/material_library.hpp"
 #include "piola/materials/registry.hpp"
 #include <algorithm>
 #include <array>
@@ -139,7 +139,7 @@ void add_choices(std::span<Choice const> choices, Json& properties) {
 /// A law with all of its keys, or a material of the library with this law.
 Json law_schema(LawInfo const& law) {
   Json names = Json::array(), needed = {"law"}, properties = Json::object();
-  for (LibraryMaterial const& material : material_library())
+  for (LibraryMaterial const& material : material_library().materials)
     if (material.law == law.name) names.push_back(material.name);
   properties["law"] = {{"const", law.name}, {"description", law.about}};
   if (!names.empty())
@@ -156,6 +156,30 @@ Json law_schema(LawInfo const& law) {
               {"additionalProperties", false}};
   schema["oneOf"] = {{{"required", needed}}, {{"required", {"name"}}}};
   return schema;
+}
+
+Json library_names() {
+  Json names = Json::array();
+  for (LibraryMaterial const& material : material_library().materials) names.push_back(material.name);
+  return names;
+}
+
+/// A material of a file of the key `library`: its law is not known here.
+Json own_material_schema() {
+  return {{"type", "object"},
+          {"title", "a material of a file of the key library"},
+          {"properties", {{"name", {{"type", "string"}, {"not", {{"enum", library_names()}}}}}}},
+          {"required", {"name"}},
+          {"not", {{"required", {"law"}}}}};
+}
+
+/// Without the key `library`, bodies and parts of bodies name materials of the program.
+Json names_without_library() {
+  Json const material{{"properties", {{"name", {{"enum", library_names()}}}}}};
+  Json const part{{"items", {{"properties", {{"material", material}}}}}};
+  Json const body{{"items", {{"properties", {{"material", material}, {"part", part}}}}}};
+  Json const of_library{{"required", {"library"}}}, of_program{{"properties", {{"body", body}}}};
+  return Json::array({of_library, of_program});
 }
 
 Json formulation_schema(FormulationInfo const& info) {
@@ -187,13 +211,15 @@ std::string case_schema() {
   for (SectionInfo const& section : case_sections()) {
     if (section.name.empty())
       schema.update(section_schema(section));
-    else if (section.name == "body.material")
+    else if (section.name == "body.material") {
       definitions["body.material"] = any_of(laws(), law_schema);
-    else if (section.name == "body.formulation")
+      definitions["body.material"]["anyOf"].push_back(own_material_schema());
+    } else if (section.name == "body.formulation")
       definitions["body.formulation"] = any_of(formulations(), formulation_schema);
     else
       definitions[std::string(section.name)] = section_schema(section);
   }
+  schema["anyOf"] = names_without_library();
   schema["definitions"] = std::move(definitions);
   return schema.dump(2) + "\n";
 }
