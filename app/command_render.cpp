@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "piola/base/text.hpp"
 #include "piola/base/units.hpp"
 #include "piola/formulations/renamed_outputs.hpp"
+#include "piola/input/output_keys.hpp"
 #include "piola/model/read_case.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/pictures/render.hpp"
@@ -10,8 +12,11 @@
 #include "set_up_watch.hpp"
 #include "streams.hpp"
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cstdio>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <functional>
 #include <memory>
 
@@ -22,36 +27,39 @@ struct RenderArguments {
   std::string folder, component, out, times;
   std::vector<std::string> folders, fields{"Pressure"};
   bool side_by_side = false;
-  std::vector<double> range, look_at;
+  std::vector<double> range;
   std::vector<std::string> view;
-  std::vector<int> size;
-  bool no_labels = false;
   FilmOptions film;
-  PictureOverrides look;
+  PictureOverrides look;  ///< by options of one value
   std::vector<std::size_t> frames;
   bool last = false, shape = false, patches = false;
   std::size_t every = 1;
   CaseOptions with;
   std::vector<std::string> as;
   std::vector<double> cut;
-  bool ghost = false, no_outline = false, panels = false;
+  bool ghost = false, panels = false;
 };
 
-/// From words to numbers.
+/// The changes of the picture settings that all options ask for. The view is known when the folder is.
 PictureOverrides look_of(RenderArguments const& options) {
   PictureOverrides look = options.look;
-  if (options.view.size() == 1) look.named_view = options.view[0];
+  if (options.view.size() == 1)
+    look.emplace_back([name = options.view[0]](PictureSpec& picture) { picture.named_view = name; });
   if (options.view.size() == 2) {
     double azimuth = 0, elevation = 0;
     if (!CLI::detail::lexical_cast(options.view[0], azimuth) || !CLI::detail::lexical_cast(options.view[1], elevation))
       throw InputError(
           fmt::format("--view: {} {} is no direction (allowed: two angles in degrees, or a name) - e.g. 30 20",
                       options.view[0], options.view[1]));
-    look.view = std::array{azimuth, elevation};
+    look.emplace_back([azimuth, elevation](PictureSpec& picture) {
+      picture.named_view.clear();
+      picture.view = {azimuth, elevation};
+    });
   }
-  if (!options.look_at.empty()) look.look_at = std::array{options.look_at[0], options.look_at[1], options.look_at[2]};
-  if (!options.size.empty()) look.size = std::array{options.size[0], options.size[1]};
-  if (options.no_labels) look.labels = false;
+  if (!options.cut.empty())
+    look.emplace_back([c = options.cut, ghost = options.ghost](PictureSpec& picture) {
+      picture.appearance.cut = CutPlane{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, ghost, false};
+    });
   return look;
 }
 
@@ -140,11 +148,6 @@ int render(RenderArguments options) {
                      .beside = {options.folders.begin() + 1, options.folders.end()}};
   what.as = options.as;
   what.panels = options.panels;
-  what.outline = !options.no_outline;
-  if (!options.cut.empty()) {
-    auto const& c = options.cut;
-    what.cut = AppearanceSpec::Cut{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, options.ghost, false};
-  }
   if (!options.range.empty()) what.range = {options.range[0], options.range[1]};
   if (!options.film.file.empty()) {
     if (options.film.file.has_parent_path()) make_folder(options.film.file.parent_path());
@@ -162,43 +165,86 @@ int render(RenderArguments options) {
   return completed;
 }
 
-/// Adds the options of the view; defaults are the picture settings of the case in the folder.
-void add_look_options(CLI::App& command, RenderArguments& options) {
+/// Adds an option each of whose values changes the picture settings.
+template <class Value, class Change>
+CLI::Option* add_change(CLI::App& command, PictureOverrides& look, std::string const& name, std::string const& help,
+                        Change change) {
+  auto const note = [&look, change](Value const& value) {
+    look.emplace_back([change, value](PictureSpec& picture) { change(picture, value); });
+  };
+  return command.add_option_function<Value>(name, note, help);
+}
+
+/// Adds the options of the view that are no single number, word or flag, or have words of their own.
+void add_view_options(CLI::App& command, RenderArguments& options) {
   PictureOverrides& look = options.look;
   command
       .add_option("--view", options.view,
                   "Azimuth and elevation in degrees, or x, y, z, -x, -y, -z, iso, iso2 (default: that of the case)")
       ->expected(1, 2);
-  command.add_option("--up", look.up, "Axis that points upwards: x, y, z, -x, -y, -z; auto: that of the case")
+  add_change<std::string>(command, look, "--up",
+                          "Axis that points upwards: x, y, z, -x, -y, -z; auto: that of the case",
+                          [](PictureSpec& picture, std::string const& up) {
+                            if (up != "auto") picture.up = up;
+                          })
       ->check(CLI::IsMember({"auto", "x", "y", "z", "-x", "-y", "-z"}))
-      ->capture_default_str();
-  command.add_option("--roll", look.roll, "Angle in degrees by which the picture is turned, anticlockwise")
-      ->check(CLI::Range(-360, 360));
-  command.add_option("--zoom", look.zoom, "2 shows all twice as large")->check(CLI::Range(0.01, 1000.0));
-  command.add_option("--perspective", look.perspective, "Angle of view in degrees; 0: parallel lines stay parallel")
-      ->check(CLI::Range(0.0, 120.0));
-  command.add_option("--look-at", options.look_at, "The point in the middle, in m")->expected(3);
-  command.add_option("--follow", look.follow, "Name of a body that stays in the middle and fills the picture");
-  command
-      .add_option("--map", look.map, "Colours: auto, viridis, cividis, magma, grey, blue_red, blue_brown, heat_on_grey")
-      ->check(CLI::IsMember(std::vector<std::string>(palette_words.begin(), palette_words.end())));
-  command.add_option("--theme", look.theme, "Background and letters: light, dark, transparent")
-      ->check(CLI::IsMember(std::vector<std::string>(theme_words.begin(), theme_words.end())));
-  command.add_flag("--no-labels", options.no_labels, "Only the bodies: no title, time, colour bar, axes, scale bar");
-  command
-      .add_option("--size", options.size,
-                  "Width and height in pixels (default: that of the case, else fitted to the content)")
+      ->default_str("auto");
+  add_change<std::vector<double>>(command, look, "--look-at", "The point in the middle, in m",
+                                  [](PictureSpec& picture, std::vector<double> const& at) {
+                                    picture.look_at = {at[0], at[1], at[2]};
+                                  })
+      ->expected(3);
+  add_change<std::string>(command, look, "--follow", "Name of a body that stays in the middle and fills the picture",
+                          [](PictureSpec& picture, std::string const& body) { picture.follow = body; });
+  add_change<std::vector<int>>(command, look, "--size",
+                               "Width and height in pixels (default: that of the case, else fitted to the content)",
+                               [](PictureSpec& picture, std::vector<int> const& size) {
+                                 picture.width = size[0];
+                                 picture.height = size[1];
+                               })
       ->expected(2)
       ->check(CLI::Range(200, 20000));
 }
 
-/// Adds the options of further objects and of picture quality.
-void add_drawing_options(CLI::App& command, PictureOverrides& look) {
-  command.add_option("--quality", look.quality, "normal; high: more samples and a smoother shade")
-      ->check(CLI::IsMember(std::vector<std::string>(quality_words.begin(), quality_words.end())));
-  command.add_option("--warp", look.warp, "Magnification of displacements")->check(CLI::Range(0.0, 1e6));
-  command.add_flag("--supports", look.supports, "Hatches what supports hold");
-  command.add_flag("--ground", look.ground, "A plane below the bodies, with their shadow; in space only");
+/// The option of a row of the schema: --KEY VALUE; of a flag --KEY, or --no-KEY if it is on by default.
+struct SettingOption {
+  CLI::App& command;
+  KeyInfo const& info;
+  PictureOverrides& look;
+
+  std::string name() const { return "--" + std::string(info.key); }
+  std::string help() const {
+    std::string text(info.meaning);
+    text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    return info.unit.empty() || info.unit == "1" ? text : fmt::format("{} [{}]", text, info.unit);
+  }
+  void operator()(double& (*member)(PictureSpec&)) const {
+    add_change<double>(command, look, name(), help(), [member](PictureSpec& p, double value) {
+      member(p) = value;
+    })->check(CLI::Range(info.allowed.low, info.allowed.high));
+  }
+  void operator()(bool& (*member)(PictureSpec&)) const {
+    PictureSpec standard;
+    bool const on = member(standard);
+    auto const note = [&look = look, member, on] {
+      look.emplace_back([member, on](PictureSpec& picture) { member(picture) = !on; });
+    };
+    command.add_flag_callback(on ? "--no-" + std::string(info.key) : name(), note,
+                              on ? "Without " + std::string(info.meaning) : help());
+  }
+  void operator()(WordMember<PictureSpec> const& member) const {
+    auto const change = [set = member.set, words = info.words](PictureSpec& picture, std::string const& word) {
+      set(picture, static_cast<std::size_t>(std::find(words.begin(), words.end(), word) - words.begin()));
+    };
+    add_change<std::string>(command, look, name(), help(), change)->check(CLI::IsMember(to_strings(info.words)));
+  }
+  template <class Other>
+  void operator()(Other const&) const {}  // has an option of its own
+};
+
+void add_setting_options(CLI::App& command, PictureOverrides& look) {
+  for (PictureKey const& row : picture_keys())
+    if (!row.own_reader) std::visit(SettingOption{command, row.info, look}, row.member);
 }
 
 void add_film_options(CLI::App& command, RenderArguments& options) {
@@ -239,7 +285,6 @@ void add_appearance_options(CLI::App& command, RenderArguments& options) {
                                        "the normal points to is taken away");
   cut->expected(6);
   command.add_flag("--ghost", options.ghost, "With --cut: what is taken away stays as a shade")->needs(cut);
-  command.add_flag("--no-outline", options.no_outline, "No dashed lines where the edges of bodies were");
 }
 
 void add_shape_options(CLI::App& command, RenderArguments& options) {
@@ -283,8 +328,8 @@ void add_render(CLI::App& program, Action& action) {
       ->excludes(last);
   command->add_option("--out,-o", options->out,
                       "Folder of the pictures (default: pictures in the results folder); with --shape the picture");
-  add_look_options(*command, *options);
-  add_drawing_options(*command, options->look);
+  add_view_options(*command, *options);
+  add_setting_options(*command, options->look);
   add_film_options(*command, *options);
   add_appearance_options(*command, *options);
   add_shape_options(*command, *options);

@@ -28,13 +28,14 @@ struct BentCube {
   }
 };
 
-void draw(benchmark::State& state, Appearance const& appearance) {
+void draw(benchmark::State& state, Appearance const& appearance, std::optional<Point3> ground = {}) {
   exec_host::set_threads(0);
   BentCube const cube(static_cast<int>(state.range(0)));
   int const width = static_cast<int>(state.range(1)), height = static_cast<int>(state.range(2));
   PictureData data{
       .points = cube.x, .radius = cube.radius, .values = cube.values, .label = {}, .unit = {}, .title = {}};
   data.body = cube.set.body;
+  data.ground = ground;
   data.meshes = cube.meshes;
   View const view;
   Projection const project{view.right(), view.up(), view.towards_viewer(), 0.5 * height, 0.2 * width, 0.7 * height};
@@ -47,7 +48,7 @@ void draw(benchmark::State& state, Appearance const& appearance) {
 void skin(benchmark::State& state) { draw(state, {.as = {Representation::skin}}); }
 void balls(benchmark::State& state) { draw(state, {.as = {Representation::balls}}); }
 void high_quality(benchmark::State& state) { draw(state, {.as = {Representation::skin}, .quality = Quality::high}); }
-void on_ground(benchmark::State& state) { draw(state, {.as = {Representation::skin}, .ground = Point3{0, 1, 0}}); }
+void on_ground(benchmark::State& state) { draw(state, {.as = {Representation::skin}}, Point3{0, 1, 0}); }
 void mesh(benchmark::State& state) {
   BentCube const cube(static_cast<int>(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(reference_meshes(cube.set).data());

@@ -25,17 +25,17 @@ struct Standing {
     radius = ball_radii(set.volume, set.body, 3);
     values.assign(x.size(), 0);
   }
-  std::vector<GroundLight> ground(View const& view, double lifted = 0,
-                                  Appearance appearance = {.ground = Point3{0, 1, 0}}) {
+  std::vector<GroundLight> ground(View const& view, double lifted = 0, std::optional<Point3> up = Point3{0, 1, 0}) {
     std::vector<Point3> now = x;
     for (Point3& p : now) p[1] += lifted;
     PictureData data{.points = now, .radius = radius, .values = values, .label = {}, .unit = {}, .title = {}};
     data.body = set.body;
+    data.ground = up;
     data.meshes = meshes;
     data.stage_low = {0, 0, 0};
     data.stage_high = {2, 1, 0.5};
     Projection const project{view.right(), view.up(), view.towards_viewer(), scale, 60, 110};
-    return ground_below(data, appearance, project, {side, side, 0, side});
+    return ground_below(data, {}, project, {side, side, 0, side});
   }
   /// The pixel of a place of the ground, from above.
   static GroundLight at(std::vector<GroundLight> const& ground, double x, double z) {

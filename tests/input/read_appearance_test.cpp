@@ -12,29 +12,24 @@ std::string with(std::string const& keys) {
   return test::sample_case() + "\n[output.pictures]\nevery = 1\n" + keys + "\n";
 }
 
-AppearanceSpec read(std::string const& keys) {
-  return read_case_text(with(keys), "case.toml").output.pictures.appearance;
-}
+Appearance read(std::string const& keys) { return read_case_text(with(keys), "case.toml").output.pictures.appearance; }
 
 std::string refusal(std::string const& keys) { return test::message_of(with(keys)); }
 
 TEST(ReadAppearance, IsAutomaticUnlessTheCaseSaysOtherwise) {
-  AppearanceSpec const standard = read("");
-  EXPECT_EQ(standard.as, "auto");
-  EXPECT_TRUE(standard.of_body.empty());
+  Appearance const standard = read("");
+  EXPECT_TRUE(standard.as.empty());
   EXPECT_TRUE(standard.outline);
   EXPECT_FALSE(standard.cut);
-  AppearanceSpec const all = read("as = \"balls\"\noutline = false");
-  EXPECT_EQ(all.as, "balls");
+  Appearance const all = read("as = \"balls\"\noutline = false");
+  EXPECT_EQ(all.as, std::vector{Representation::balls});
   EXPECT_FALSE(all.outline);
-  AppearanceSpec const one = read("as = { column = \"none\" }");
-  ASSERT_EQ(one.of_body.size(), 1U);
-  EXPECT_EQ(one.of_body[0].body, "column");
-  EXPECT_EQ(one.of_body[0].as, "none");
+  Appearance const one = read("as = { column = \"none\" }");
+  EXPECT_EQ(one.as, std::vector{Representation::none});
 }
 
 TEST(ReadAppearance, CutsAlongAPlane) {
-  AppearanceSpec const cut =
+  Appearance const cut =
       read("cut = { point = [0, \"20 cm\", 0], normal = [0, 2, 0], show = \"ghost\", of = \"reference\" }");
   ASSERT_TRUE(cut.cut);
   EXPECT_DOUBLE_EQ(cut.cut->point[1], 0.2);

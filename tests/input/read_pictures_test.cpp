@@ -44,7 +44,7 @@ as = { column = "balls" })");
   EXPECT_FALSE(second.range) << "pascals are no range of velocities";
   EXPECT_EQ(second.named_view, "x");
   ASSERT_TRUE(second.appearance.cut);
-  ASSERT_EQ(second.appearance.of_body.size(), 1U);
+  EXPECT_EQ(second.appearance.as, std::vector{Representation::balls});
 }
 
 TEST(ReadPanels, RefuseWhatPicturesAloneHave) {
@@ -62,7 +62,7 @@ TEST(ReadPictures, TakesMomentsAndWhatIsDrawnBesideBodies) {
   PicturesSpec const all =
       pictures_of("times = [0, \"10 ms\"]\nquality = \"high\"\nwarp = 20\nground = true\nsupports = true");
   EXPECT_EQ(all.times, (std::vector<double>{0, 0.01}));
-  EXPECT_EQ(all.quality, "high");
+  EXPECT_EQ(all.appearance.quality, Quality::high);
   EXPECT_EQ(all.warp, 20);
   EXPECT_TRUE(all.ground);
   EXPECT_TRUE(all.supports);

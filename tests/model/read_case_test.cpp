@@ -174,8 +174,8 @@ labels = false
   EXPECT_EQ(spec.output.pictures.zoom, 1.5);
   EXPECT_EQ(*spec.output.pictures.look_at, (std::array<double, 3>{0.001, 2, 0}));
   EXPECT_EQ(spec.output.pictures.follow, "column");
-  EXPECT_EQ(spec.output.pictures.map, "magma");
-  EXPECT_EQ(spec.output.pictures.theme, "dark");
+  EXPECT_EQ(spec.output.pictures.map, Palette::magma);
+  EXPECT_EQ(spec.output.pictures.theme, Theme::dark);
   EXPECT_FALSE(spec.output.pictures.labels);
   EXPECT_EQ(spec.output.pictures.width, 0) << "as what is shown needs it";
   CaseSpec const angles = read(sample_case() + "[output.pictures]\nevery = 1\nazimuth = -20\nelevation = 80\n");

@@ -57,17 +57,13 @@ TEST(Upwards, IsTheNormalOfARestingPlane) {
   EXPECT_EQ(upwards(spec), Up::y) << "it is no plane";
 }
 
-TEST(Appearance, IsThatOfEachBody) {
-  CaseSpec spec = read_case_text(test::sample_case(), "case.toml");
-  spec.bodies.push_back(spec.bodies.front());
-  spec.bodies[1].name = "other";
-  spec.output.pictures.appearance.as = "balls";
-  spec.output.pictures.appearance.of_body = {{"other", "none", {}}};
-  spec.output.pictures.appearance.cut = AppearanceSpec::Cut{{1, 2, 3}, {0, 0, 1}, true, false};
-  Appearance const appearance = appearance_of(spec, spec.output.pictures);
-  EXPECT_EQ(appearance.as, (std::vector{Representation::balls, Representation::none}));
-  EXPECT_EQ(appearance.cut->point, (Point3{1, 2, 3}));
-  EXPECT_TRUE(appearance.cut->ghost);
+TEST(Ground, LiesAcrossTheUpwardAxisIfAskedFor) {
+  CaseSpec spec = with_plane({0, 0, 1}, "0");
+  spec.rigids[0].velocity[2] = Expression("0");
+  EXPECT_FALSE(ground_of(spec, spec.output.pictures));
+  spec.output.pictures.ground = true;
+  ASSERT_TRUE(ground_of(spec, spec.output.pictures));
+  EXPECT_NEAR((*ground_of(spec, spec.output.pictures))[2], 1, 1e-12);
 }
 
 TEST(LooseParticles, AreDamagedThroughOrEulerian) {

@@ -12,13 +12,20 @@ namespace {
 
 using test::mentions;
 
+PictureOverrides small_pictures() {
+  return {[](PictureSpec& picture) {
+    picture.width = 300;
+    picture.height = 250;
+  }};
+}
+
 TEST(Render, DrawsOnePictureForEachFrame) {
   testing::TemporaryFolder const folder;
   Simulation s = testing::make_springs();
   Listener listener;
   std::atomic<int> const none{0};
   run_case(s, {.folder = folder / "r"}, listener, none);
-  auto const paths = render_frames(folder / "r", {.field = "Velocity", .look = {.size = std::array{300, 250}}});
+  auto const paths = render_frames(folder / "r", {.field = "Velocity", .look = small_pictures()});
   ASSERT_EQ(paths.size(), 5U);
   EXPECT_EQ(paths[4].filename(), "Velocity-000004.png");
   Image const image = read_png(paths[4]);
@@ -29,7 +36,7 @@ TEST(Render, DrawsOnePictureForEachFrame) {
 
 struct Drawn {
   testing::TemporaryFolder folder;
-  RenderOptions options{.field = "Velocity", .look = {.size = std::array{300, 250}}};
+  RenderOptions options{.field = "Velocity", .look = small_pictures()};
   Drawn() {
     Simulation s = testing::make_springs();
     Listener listener;
@@ -89,7 +96,7 @@ TEST(Render, TurnsThePictureSoThatTheAxisAskedForPointsUp) {
   d.options.only = {0};
   d.names();
   Image const upright = read_png(d.folder / "r/pictures/Velocity-000000.png");
-  d.options.look.up = "-y";
+  d.options.look.emplace_back([](PictureSpec& p) { p.up = "-y"; });
   d.names();
   EXPECT_NE(read_png(d.folder / "r/pictures/Velocity-000000.png").rgb, upright.rgb);
 }
@@ -111,7 +118,7 @@ TEST(Render, DrawsRunsSideBySideAtEqualTimes) {
   std::filesystem::copy(d.folder / "r", d.folder / "twin", std::filesystem::copy_options::recursive);
   d.options.out = d.folder / "both";
   d.options.beside = {d.folder / "twin"};
-  d.options.look.labels = false;
+  d.options.look.emplace_back([](PictureSpec& p) { p.labels = false; });
   EXPECT_EQ(d.names().size(), 5u);
   Image const image = read_png(d.folder / "both/Velocity-000004.png");
   ASSERT_EQ(image.width, 300);
@@ -162,24 +169,26 @@ TEST(Render, TakesTheLookAskedFor) {
     return read_png(d.folder / "r/pictures/Velocity-000004.png").rgb;
   };
   auto const before = picture();
+  PictureOverrides const looks{[](PictureSpec& p) { p.zoom = 2; },
+                               [](PictureSpec& p) {
+                                 p.look_at = {{0, 0, 0}};
+                               },
+                               [](PictureSpec& p) { p.theme = Theme::dark; },
+                               [](PictureSpec& p) { p.map = Palette::grey; },
+                               [](PictureSpec& p) { p.labels = false; },
+                               [](PictureSpec& p) { p.roll = 90; }};
   PictureOverrides const plain = d.options.look;
-  std::vector<PictureOverrides> looks(6, plain);
-  looks[0].zoom = 2;
-  looks[1].look_at = {{0, 0, 0}};
-  looks[2].theme = "dark";
-  looks[3].map = "grey";
-  looks[4].labels = false;
-  looks[5].roll = 90;
   for (std::size_t k = 0; k < looks.size(); ++k) {
-    d.options.look = looks[k];
+    d.options.look = plain;
+    d.options.look.push_back(looks[k]);
     EXPECT_NE(picture(), before) << k;
   }
   d.options.look = plain;
   EXPECT_EQ(picture(), before);
-  d.options.look.named_view = "above";
+  d.options.look.emplace_back([](PictureSpec& p) { p.named_view = "above"; });
   EXPECT_NE(d.refusal().find("view: 'above' is not known (allowed: x, y, z, -x"), std::string::npos) << d.refusal();
   d.options.look = plain;
-  d.options.look.follow = "nobody";
+  d.options.look.emplace_back([](PictureSpec& p) { p.follow = "nobody"; });
   EXPECT_NE(d.refusal().find("follow: there is no body 'nobody'"), std::string::npos) << d.refusal();
 }
 

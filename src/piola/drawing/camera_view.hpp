@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/input/picture_spec.hpp"
 #include <array>
 #include <optional>
 #include <span>
@@ -26,10 +27,7 @@ struct View {
   std::array<double, 3> towards_viewer() const;
 };
 
-/// Names of views: from the positive or negative end of an axis, and from two sides so that all three axes are equally
-/// foreshortened.
-inline constexpr std::array<std::string_view, 8> view_words{"x", "y", "z", "-x", "-y", "-z", "iso", "iso2"};
-/// Azimuth and elevation of a named view [deg]; nothing for another name.
+/// Azimuth and elevation of a view of view_words [deg]; nothing for another name.
 std::optional<std::array<double, 2>> named_view(std::string_view word, Up upwards);
 
 /// An eye at a finite distance. A perspective picture is the parallel projection of points moved by seen(), which

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/drawing/image.hpp"
+#include "piola/input/picture_spec.hpp"
 #include <array>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace piola {
-
-/// Colour maps by name. viridis, cividis, magma, grey: lightness rises evenly; blue_red and blue_brown: light grey at
-/// zero, the two signs equally dark; heat_on_grey: from the grey of a body through orange to dark red, for what is zero
-/// in most of a body. `automatic` is blue_red for a range that has zero well inside, else viridis.
-enum class Palette { automatic, viridis, cividis, magma, grey, blue_red, blue_brown, heat_on_grey };
-inline constexpr std::array<std::string_view, 8> palette_words{"auto", "viridis",  "cividis",    "magma",
-                                                               "grey", "blue_red", "blue_brown", "heat_on_grey"};
 
 /// The colours of a map from its low to its high end; those of `automatic` are viridis.
 std::array<Colour, 256> palette_colours(Palette palette);

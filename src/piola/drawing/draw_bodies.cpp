@@ -149,7 +149,7 @@ class Covered {
 /// Where there is something to draw; all of it where a ground, rigid shapes or perspective may reach anywhere.
 Part part_to_draw(PictureData const& data, Appearance const& appearance, Projection const& project,
                   SceneArea const& area, Scene const& scene, int fine) {
-  if (!data.rigid_shapes.empty() || appearance.ground || project.eye.near()) return {0, 0, area.width, area.height};
+  if (!data.rigid_shapes.empty() || data.ground || project.eye.near()) return {0, 0, area.width, area.height};
   Covered covered;
   covered.add(scene.bodies, fine);
   covered.add(scene.ghosts, fine);

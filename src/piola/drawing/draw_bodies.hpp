@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/drawing/appearance.hpp"
 #include "piola/drawing/colour_map.hpp"
 #include "piola/drawing/picture.hpp"
 #include "piola/drawing/projection.hpp"
+#include "piola/input/picture_spec.hpp"
 #include <optional>
 
 namespace piola {

@@ -131,8 +131,8 @@ float fade_at_letters(SceneArea const& area, int x, int y) {
 
 std::vector<GroundLight> ground_below(PictureData const& data, Appearance const& appearance, Projection const& project,
                                       SceneArea const& area) {
-  if (!appearance.ground || data.dimension < 3 || data.points.empty()) return {};
-  Ground const ground(*appearance.ground, lowest(data, *appearance.ground));
+  if (!data.ground || data.dimension < 3 || data.points.empty()) return {};
+  Ground const ground(*data.ground, lowest(data, *data.ground));
   Square const square = around(ground, data.points);
   Square const stage = around(ground, std::array{data.stage_low, data.stage_high});
   if (!(square.side > 0) || !std::isfinite(ground.height)) return {};

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/drawing/colour_map.hpp"
 #include "piola/drawing/image.hpp"
+#include "piola/input/picture_spec.hpp"
 #include <array>
 #include <optional>
 #include <span>
@@ -11,10 +12,6 @@
 
 /// Annotations of a picture: title, time, colour bar or legend, axes, scale bar.
 namespace piola {
-
-/// The colours around the bodies. A transparent picture has the letters of a light one.
-enum class Theme { light, dark, transparent };
-inline constexpr std::array<std::string_view, 3> theme_words{"light", "dark", "transparent"};
 
 struct ThemeColours {
   Colour background, ink, faint_ink;

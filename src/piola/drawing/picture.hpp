@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/drawing/appearance.hpp"
 #include "piola/drawing/camera_view.hpp"
 #include "piola/drawing/image.hpp"
 #include "piola/drawing/overlay.hpp"
+#include "piola/drawing/point3.hpp"
 #include "piola/drawing/reference_mesh.hpp"
 #include "piola/formulations/assembly.hpp"
 #include "piola/formulations/quantity_names.hpp"
+#include "piola/input/picture_spec.hpp"
 #include <array>
 #include <limits>
 #include <optional>
@@ -51,6 +52,7 @@ struct PictureData {
   Eye eye = {};                                ///< in three dimensions
   std::optional<TimeFormat> time_format = {};  ///< of all times of the run; else one that fits this time
   std::span<int const> body = {};              ///< numbers, particles of a body one after the other; empty: one body
+  std::optional<Point3> ground = {};           ///< upwards, of length 1: across a plane below the bodies; 3D only
   std::span<ReferenceMesh const> meshes = {};  ///< per body; none: particles are balls that do not stretch
   std::span<std::uint8_t const> loose = {};    ///< not 0: has lost its neighbours for good; empty: none has
   std::span<std::uint8_t const> held = {};     ///< not 0: hatched; empty: none is

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/drawing/appearance.hpp"
 #include "piola/drawing/projection.hpp"
 #include "piola/drawing/raster.hpp"
 #include "piola/drawing/skin.hpp"
+#include "piola/input/picture_spec.hpp"
 #include <vector>
 
 namespace piola {

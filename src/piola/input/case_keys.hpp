@@ -19,7 +19,7 @@ struct KeyInfo {
   Interval allowed;           ///< quantity, point, whole
   std::string_view standard;  ///< what holds if the key is left out; empty: the key must be given
   std::string_view meaning;
-  std::span<std::string_view const> words;  ///< word: what may be chosen; other kinds: words in place of a value
+  std::span<std::string_view const> words = {};  ///< word: what may be chosen; other kinds: words in place of a value
 
   bool required() const { return standard.empty(); }
 };

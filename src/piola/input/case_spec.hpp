@@ -6,6 +6,7 @@
 #include "piola/formulations/assembly.hpp"
 #include "piola/input/document.hpp"
 #include "piola/input/guard_limits.hpp"
+#include "piola/input/picture_spec.hpp"
 #include "piola/setup/faces.hpp"
 #include <array>
 #include <limits>
@@ -167,7 +168,7 @@ struct ProbeSpec {
   std::vector<Expression> reference;    ///< error: one formula in X, Y, Z, t per component of the field [SI]
   std::vector<std::string> quantities;  ///< e.g. "velocity_x", "pressure"; twist: "twist_angle"; extent: "extent";
                                         ///< error: "relative_error"; stress_intensity: "stress_intensity"; other kinds:
-                                        ///< see own_quantities
+                                        ///< see probe_kinds
   std::array<double, 3> direction{1, 0, 0};  ///< stress_intensity: ahead of the tip, unit vector
   double from = 0, to = 0;                   ///< stress_intensity: distances from the tip [m]
   double link = 1.5;                         ///< fragment, rim, hole: linked if closer than this many spacings
@@ -213,55 +214,6 @@ struct QuantitySpec {
   std::string unit = "1";               ///< as shown
   double from = 0;  ///< mean, mean_absolute_difference, relative_error: rows from this time on; change: start [s]
   double until = std::numeric_limits<double>::infinity();  ///< and up to this one; change: end [s]
-};
-
-/// How bodies are drawn in pictures: the words of drawing/appearance.hpp.
-struct AppearanceSpec {
-  struct BodyInput {
-    std::string body, as;
-    Place place;
-  };
-  struct Cut {
-    std::array<double, 3> point{}, normal{1, 0, 0};  ///< [m]; what lies on the side of the normal is taken away
-    bool ghost = false, in_reference = false;
-  };
-  std::string as = "auto";
-  std::vector<BodyInput> of_body = {};
-  bool outline = true;  ///< of the reference shape
-  std::optional<Cut> cut = {};
-};
-
-/// Content and style of a picture or of a panel of one.
-struct PictureSpec {
-  std::string field = "Pressure";
-  std::string component = {};                       ///< of that field, e.g. "x"; empty: see picture_values
-  std::string up = "auto";                          ///< auto, x, y, z, -x, -y, -z
-  std::optional<std::array<double, 2>> range = {};  ///< SI; otherwise from the data
-  std::array<double, 2> view{30, 20};               ///< azimuth, elevation [deg]
-  std::string named_view = {};                      ///< x, -y, iso ...; empty: view
-  double roll = 0;                                  ///< deg
-  double zoom = 1;
-  double perspective = 0;                             ///< deg
-  std::optional<std::array<double, 3>> look_at = {};  ///< m
-  std::string follow = {};                            ///< name of a body
-  int width = 0, height = 0;                          ///< pixels; 0: as what is shown needs it
-  double scale = 1;                                   ///< of that
-  std::string theme = "light", map = "auto";
-  bool labels = true;
-  AppearanceSpec appearance = {};
-  std::string quality = "normal";  ///< normal, high
-  double warp = 1;                 ///< magnification of displacements
-  bool ground = false;             ///< a plane below the bodies, with their shadow
-  bool supports = false;           ///< what supports hold is hatched
-  std::string caption = {};        ///< of a panel
-};
-
-/// [output.pictures]
-struct PicturesSpec : PictureSpec {
-  double every = 0;                      ///< s
-  std::vector<PictureSpec> panels = {};  ///< panels of one picture; none: a single view
-  int columns = 0;                       ///< of panels; 0: as many as fit
-  std::vector<double> times = {};        ///< of the moments that one more picture shows [s]
 };
 
 /// Whether what is taken is an instant [s].

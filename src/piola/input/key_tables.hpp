@@ -9,16 +9,20 @@ namespace piola {
 
 inline constexpr std::array<std::string_view, 3> axis_words{"x", "y", "z"};
 
+constexpr Interval closed(double low, double high) { return {low, high, false, false}; }
+constexpr Interval above(double low, double high) { return {low, high, true, false}; }
+
 // Lengths outside these bounds are slips, and their volumes would leave the range of numbers.
 inline constexpr Interval place_range{-1e15, 1e15, false, false};
 inline constexpr Interval length_range{1e-15, 1e15, false, false};
+inline constexpr Interval count_range{1, 2147483647, false, false};
 
-std::span<KeyInfo const> keys_of_run_and_bodies();  ///< top of the file, run, body
-std::span<KeyInfo const> keys_of_regions();         ///< body.part, region
-std::span<KeyInfo const> keys_of_solids();          ///< shapes that are solids, their parts and placing
-std::span<KeyInfo const> keys_of_boundaries();      ///< support, load, mirror, crack, rigid, contact
-std::span<KeyInfo const> keys_of_ties();            ///< tie
-std::span<KeyInfo const> keys_of_observers();       ///< probe, quantity
-std::span<KeyInfo const> keys_of_output();          ///< output and its parts
+std::span<KeyInfo const> keys_of_run();         ///< run
+std::span<KeyInfo const> keys_of_bodies();      ///< top of the file, body
+std::span<KeyInfo const> keys_of_regions();     ///< body.part, region
+std::span<KeyInfo const> keys_of_solids();      ///< shapes that are solids, their parts and placing
+std::span<KeyInfo const> keys_of_boundaries();  ///< support, load, mirror, crack, rigid, contact, tie
+std::span<KeyInfo const> keys_of_observers();   ///< probe, quantity
+std::span<KeyInfo const> keys_of_output();      ///< output and its parts
 
 }  // namespace piola

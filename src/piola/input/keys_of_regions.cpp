@@ -8,28 +8,20 @@ namespace {
 using enum KeyInfo::Kind;
 
 constexpr std::array region_keys{
-    KeyInfo{"body.part", "name", name, "", {}, "part_1, part_2, ...", "what it is called in messages", {}},
-    KeyInfo{
-        "body.part",
-        "where",
-        formula,
-        "",
-        {},
-        "",
-        "condition in X, Y, Z, regions, depth that selects particles; a region with a shape alone cuts a packed body "
-        "along its surface",
-        {}},
-    KeyInfo{"body.part", "material", table, "", {}, "", "law and parameters there", {}},
+    KeyInfo{"body.part", "name", name, "", any_value, "part_1, part_2, ...", "what it is called in messages"},
+    KeyInfo{"body.part", "where", formula, "", any_value, "",
+            "condition in X, Y, Z, regions, depth that selects particles; a region with a shape alone cuts a packed "
+            "body along its surface"},
+    KeyInfo{"body.part", "material", table, "", any_value, "", "law and parameters there"},
 
-    KeyInfo{"region", "name", name, "", {}, "", "its name in formulas, where it is 1 inside and 0 outside", {}},
-    KeyInfo{"region", "where", formula, "", {}, "none", "condition in X, Y, Z, constants and regions before it", {}},
-    KeyInfo{"region", "shape", table, "", {}, "none", "the inside of a shape, as of a part of a solid", {}},
-    KeyInfo{"region", "near", table, "", {}, "none", "places close to a surface from a file", {}},
+    KeyInfo{"region", "name", name, "", any_value, "", "its name in formulas, where it is 1 inside and 0 outside"},
+    KeyInfo{"region", "where", formula, "", any_value, "none", "condition in X, Y, Z, constants and regions before it"},
+    KeyInfo{"region", "shape", table, "", any_value, "none", "the inside of a shape, as of a part of a solid"},
+    KeyInfo{"region", "near", table, "", any_value, "none", "places close to a surface from a file"},
 
-    KeyInfo{"region.near", "file", text, "", {}, "", "path from the case file: .stl, .obj or .ply", {}},
-    KeyInfo{"region.near", "unit", text, "", {}, "", "what one is in the file, such as mm", {}},
-    KeyInfo{
-        "region.near", "within", quantity, "m", {0, 1e15, true, false}, "", "largest distance from the surface", {}},
+    KeyInfo{"region.near", "file", text, "", any_value, "", "path from the case file: .stl, .obj or .ply"},
+    KeyInfo{"region.near", "unit", text, "", any_value, "", "what one is in the file, such as mm"},
+    KeyInfo{"region.near", "within", quantity, "m", above(0, 1e15), "", "largest distance from the surface"},
 };
 
 }  // namespace

@@ -1,57 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
+#include "piola/input/output_keys.hpp"
 #include "piola/input/sections.hpp"
 #include <algorithm>
 
 namespace piola {
 namespace {
 
-std::vector<std::string> representation_list() {
-  auto const words = key_info("output.pictures", "as").words;
-  return {words.begin(), words.end()};
-}
-
-void read_representation(Section const& pictures, AppearanceSpec& appearance) {
+/// One word for all bodies, or a table of words by body.
+void read_representations(Section const& pictures, std::span<BodySpec const> bodies, Appearance& appearance) {
   Node const* const node = pictures.node().find("as");
   if (node == nullptr) return;
-  std::string const name = pictures.name_of("as");
-  appearance.as = AppearanceSpec{}.as;
-  appearance.of_body.clear();
-  auto const words = representation_list();
-  if (!node->is_table()) {
-    if (auto const word = read_word({*node, name}, words, pictures.problems())) appearance.as = *word;
-    return;
+  std::string const key = pictures.name_of("as");
+  appearance.as.assign(std::max<std::size_t>(bodies.size(), 1), Representation::automatic);
+  auto const read_one = [&](Node const& value, std::string const& name, std::span<Representation> targets) {
+    auto const word = read_word({value, name}, to_strings(representation_words), pictures.problems());
+    if (!word) return;
+    auto const number = std::find(representation_words.begin(), representation_words.end(), *word);
+    std::fill(targets.begin(), targets.end(), static_cast<Representation>(number - representation_words.begin()));
+  };
+  if (!node->is_table()) return read_one(*node, key, appearance.as);
+  std::vector<std::string> known;
+  for (BodySpec const& body : bodies) known.push_back(body.name);
+  for (Node::Entry const& entry : node->entries) {
+    auto const body = static_cast<std::size_t>(std::find(known.begin(), known.end(), entry.key) - known.begin());
+    std::size_t const count = body < known.size() ? 1 : 0;
+    read_one(entry.value, key + "." + entry.key, std::span(appearance.as).subspan(count * body, count));
+    if (count == 0)
+      pictures.problems().add(entry.place, key + " names the body " + in_quotes(entry.key) +
+                                               " (allowed: " + joined(known) + ") - name a body of this case");
   }
-  for (Node::Entry const& entry : node->entries)
-    if (auto const word = read_word({entry.value, name + "." + entry.key}, words, pictures.problems()))
-      appearance.of_body.push_back({entry.key, *word, entry.place});
 }
 
-void read_cut(Section const& section, int dimension, AppearanceSpec& appearance) {
-  AppearanceSpec::Cut cut;
+void read_cut(Section const& section, int dimension, Appearance& appearance) {
+  CutPlane cut;
   if (auto const point = read_components(section, "point", dimension)) cut.point = *point;
   if (auto const normal = read_direction(section, "normal", dimension)) cut.normal = *normal;
-  cut.ghost = section.word_index("show") == 1;
-  cut.in_reference = section.word_index("of") == 1;
+  read_members(section, cut_keys(), cut);
   section.refuse_unknown();
   appearance.cut = cut;
 }
 
 }  // namespace
 
-void read_appearance(Section const& pictures, std::span<BodySpec const> bodies, AppearanceSpec& appearance) {
-  read_representation(pictures, appearance);
-  pictures.read("outline", appearance.outline);
+void read_appearance(Section const& pictures, std::span<BodySpec const> bodies, Appearance& appearance) {
+  read_representations(pictures, bodies, appearance);
   int const dimension = bodies.empty() ? 3 : bodies.front().shape.dimension;
   if (auto const cut = pictures.table("cut")) read_cut(*cut, dimension, appearance);
-  for (auto const& [body, word, place] : appearance.of_body) {
-    auto const named = [&, &name = body](BodySpec const& known) { return known.name == name; };
-    if (std::any_of(bodies.begin(), bodies.end(), named)) continue;
-    std::vector<std::string> known;
-    for (BodySpec const& spec : bodies) known.push_back(spec.name);
-    pictures.problems().add(place, pictures.name_of("as") + " names the body " + in_quotes(body) +
-                                       " (allowed: " + joined(known) + ") - name a body of this case");
-  }
 }
 
 }  // namespace piola

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
+#include "piola/input/boundary_keys.hpp"
 #include "piola/input/sections.hpp"
 #include <array>
 
@@ -139,7 +140,7 @@ void read_load_value(Section const& section, BodyNames const* body, LoadSpec& lo
 
 SupportSpec read_support(Section const& section, std::vector<BodyNames> const& bodies) {
   SupportSpec support;
-  section.read("name", support.name);
+  read_members(section, support_keys(), support);
   BodyNames const* const body = find_body(section, bodies, support.body);
   int const dimension = body != nullptr ? body->dimension : 3;
   if (!section.has("patch") && !section.has("where"))
@@ -159,7 +160,6 @@ SupportSpec read_support(Section const& section, std::vector<BodyNames> const& b
     if (auto const normal = read_direction(section, "normal", dimension)) support.normal = *normal;
     support.velocity = read_vector(section, "velocity", *body);
   }
-  section.read("until", support.until);
   section.refuse_unknown();
   support.places = places_of(section, {"where", "patch", "hold", "body", "fix", "normal", "velocity"});
   return support;
@@ -167,7 +167,7 @@ SupportSpec read_support(Section const& section, std::vector<BodyNames> const& b
 
 LoadSpec read_load(Section const& section, std::vector<BodyNames> const& bodies) {
   LoadSpec load;
-  section.read("name", load.name);
+  read_members(section, load_keys(), load);
   BodyNames const* const body = find_body(section, bodies, load.body);
   load.where = section.formula("where", body != nullptr ? body->names : Names{});
   read_load_value(section, body, load);
@@ -182,7 +182,6 @@ LoadSpec read_load(Section const& section, std::vector<BodyNames> const& bodies)
     section.read("follower", load.follower);
   else
     section.refuse("follower", "is used only by a pressure");
-  section.read("until", load.until);
   section.refuse_unknown();
   load.places = places_of(
       section, {"where", "body", "face", "patch", "traction", "body_force", "acceleration", "pressure", "follower"});
@@ -193,7 +192,7 @@ MirrorSpec read_mirror(Section const& section, std::vector<BodyNames> const& bod
   MirrorSpec mirror;
   BodyNames const* const body = find_body(section, bodies, mirror.body);
   read_face(section, body != nullptr ? *body : BodyNames{}, "mirrors at faces", mirror.face);
-  section.read("antisymmetric", mirror.antisymmetric);
+  read_members(section, mirror_keys(), mirror);
   section.refuse_unknown();
   mirror.places = places_of(section, {"body", "face"});
   return mirror;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
+#include "piola/input/boundary_keys.hpp"
 #include "piola/input/sections.hpp"
 #include <algorithm>
 #include <array>
@@ -26,10 +27,8 @@ void read_stiffness(Section const& section, int dimension, ContactRule& contact)
 
 /// Friction keys common to [contact] and its pairs. The static coefficient decays with the sliding speed.
 void read_friction(Section const& section, contact::FrictionLaw& friction) {
-  section.read("friction", friction.kinetic);
+  read_members(section, friction_keys(), friction);
   bool const still = section.read("static_friction", friction.still);
-  section.read("decay_speed", friction.decay_speed);
-  section.read("shear_limit", friction.shear_limit);
   if (still && !(friction.decay_speed > 0) && !section.has("decay_speed"))
     section.report_missing("decay_speed", "the speed over which friction falls from static_friction to friction",
                            "decay_speed = \"10 mm/s\"");
@@ -41,31 +40,23 @@ void read_friction(Section const& section, contact::FrictionLaw& friction) {
   if (!friction.any()) section.refuse("shear_limit", "is used only with friction");
 }
 
-/// Index of a word of the manual, whose order is not that of the enumerators.
-void read_law(Section const& section, Law& law) {
-  constexpr std::array laws{Law::kernel, Law::linear, Law::as_published, Law::surface, Law::none};
-  if (int const word = section.word_index("law"); word >= 0 && word < static_cast<int>(laws.size()))
-    law = laws[static_cast<std::size_t>(word)];
+void refuse_friction(Section const& section, bool refused, std::string const& laws) {
+  for (FrictionKey const& key : friction_keys()) refuse_for(section, key.info.key, refused, laws);
 }
-
-constexpr std::array friction_keys{"friction", "static_friction", "decay_speed", "shear_limit"};
 
 ContactSpec read_whole(Section const& section, int dimension) {
   ContactSpec contact;
-  read_law(section, contact.law);
+  read_members(section, contact_keys().first(1), contact);  // law
   Law const law = contact.law;
   std::string const all = "\"kernel\", \"linear\", \"published\" or \"surface\"";
   for (char const* key : {"scale", "self"}) refuse_for(section, key, law == Law::none, all);
-  for (char const* key : friction_keys) refuse_for(section, key, law == Law::none, all);
+  refuse_friction(section, law == Law::none, all);
   refuse_for(section, "stiffness", law != Law::as_published, "\"published\"");
   refuse_for(section, "closing_speed", law != Law::kernel, "\"kernel\"");
   refuse_for(section, "exponent", law != Law::kernel && law != Law::as_published, "\"kernel\" or \"published\"");
-  section.read("scale", contact.scale);
+  read_members(section, contact_keys().subspan(1), contact);
   read_stiffness(section, dimension, contact);
   if (law != Law::none) read_friction(section, contact.friction);
-  section.read("self", contact.self);
-  section.read("closing_speed", contact.closing_speed);
-  section.read("exponent", contact.exponent);
   section.refuse_unknown();
   contact.places = places_of(
       section, {"law", "scale", "friction", "static_friction", "self", "stiffness", "closing_speed", "exponent"});
@@ -75,7 +66,6 @@ ContactSpec read_whole(Section const& section, int dimension) {
 /// Missing values of a pair are those of [contact].
 ContactPairSpec read_pair(Section const& section, ContactRule const& whole) {
   ContactPairSpec pair;
-  pair.scale = whole.scale;
   pair.friction = whole.friction;
   if (whole.law == Law::none)
     section.problems().add(section.place(),
@@ -85,8 +75,10 @@ ContactPairSpec read_pair(Section const& section, ContactRule const& whole) {
     if (auto const items = read_list(*between, 2, 2, section.problems()))
       for (std::size_t k = 0; k < 2; ++k)
         if (auto const name = read_text((*items)[k], section.problems())) pair.between[k] = *name;
-  Law law = Law::kernel;
-  read_law(section, law);
+  ContactSpec own;
+  own.scale = whole.scale;
+  read_members(section, contact_keys().first(1), own);  // law
+  Law const law = own.law;
   if (law != Law::kernel && law != Law::none)
     section.problems().add(
         section.place_of("law"),
@@ -97,8 +89,9 @@ ContactPairSpec read_pair(Section const& section, ContactRule const& whole) {
     section.refuse(key, "is for all bodies together, not for a pair");
   std::string const all = "\"kernel\"";
   refuse_for(section, "scale", law == Law::none, all);
-  for (char const* key : friction_keys) refuse_for(section, key, law == Law::none, all);
-  section.read("scale", pair.scale);
+  refuse_friction(section, law == Law::none, all);
+  read_members(section, contact_keys().subspan(1, 1), own);  // scale
+  pair.scale = own.scale;
   if (!pair.off) read_friction(section, pair.friction);
   section.refuse_unknown();
   pair.places = places_of(section, {"between", "law", "scale", "friction"});

@@ -2,6 +2,7 @@
 #include "piola/base/text.hpp"
 #include "piola/formulations/quantity_names.hpp"
 #include "piola/input/history_names.hpp"
+#include "piola/input/output_keys.hpp"
 #include "piola/input/sections.hpp"
 #include <algorithm>
 #include <span>
@@ -45,8 +46,7 @@ void read_size(Section const& section, PictureSpec& picture) {
 void read_view(Section const& section, PictureSpec& picture) {
   auto const view = section.find("view");
   if (view && view->node.kind == Node::Kind::text) {
-    static std::vector<std::string> const words{"x", "y", "z", "-x", "-y", "-z", "iso", "iso2"};
-    if (auto const word = read_word(*view, words, section.problems())) picture.named_view = *word;
+    if (auto const word = read_word(*view, to_strings(view_words), section.problems())) picture.named_view = *word;
     for (char const* const key : {"azimuth", "elevation"}) section.refuse(key, "is given by the name of the view");
   } else if (view) {
     picture.named_view.clear();
@@ -59,12 +59,9 @@ void read_view(Section const& section, PictureSpec& picture) {
   }
   if (section.read("azimuth", picture.view[0])) picture.named_view.clear();
   if (section.read("elevation", picture.view[1])) picture.named_view.clear();
-  section.read("roll", picture.roll);
 }
 
-void read_frame_of_picture(Section const& section, PictureSpec& picture, std::span<BodySpec const> bodies) {
-  section.read("zoom", picture.zoom);
-  section.read("perspective", picture.perspective);
+void read_centre(Section const& section, PictureSpec& picture, std::span<BodySpec const> bodies) {
   if (auto const point = section.point("look_at")) {
     picture.look_at = std::array{0.0, 0.0, 0.0};
     std::copy(point->begin(), point->end(), picture.look_at->begin());
@@ -93,7 +90,9 @@ void check_component(Section const& section, PictureSpec const& picture) {
 
 /// Reads the keys common to a picture and a panel. A panel with another field does not take component and range from
 /// the picture.
-void read_picture(Section const& section, PictureSpec& picture, std::span<BodySpec const> bodies) {
+void read_picture(Section const& section, std::span<PictureKey const> keys, std::span<BodySpec const> bodies,
+                  PictureSpec& picture) {
+  read_members(section, keys, picture);
   if (auto const field = section.find("field")) {
     std::string const before = picture.field;
     if (auto const word = read_word(*field, known_fields(), section.problems())) picture.field = *word;
@@ -110,12 +109,7 @@ void read_picture(Section const& section, PictureSpec& picture, std::span<BodySp
                            section.name_of("range") + " is empty (allowed: the lower value first)");
   }
   read_view(section, picture);
-  read_frame_of_picture(section, picture, bodies);
-  section.read("map", picture.map);
-  section.read("quality", picture.quality);
-  section.read("warp", picture.warp);
-  section.read("supports", picture.supports);
-  section.read("ground", picture.ground);
+  read_centre(section, picture, bodies);
   if (picture.ground && !bodies.empty() && bodies.front().shape.dimension < 3)
     section.problems().add(section.place_of("ground"),
                            section.name_of("ground") + " is true (allowed in three dimensions only) - remove it");
@@ -135,12 +129,10 @@ void read_panels(Section const& section, PicturesSpec& pictures, std::span<BodyS
     }
     Section const panel(item.node, "output.pictures.panel", section.problems());
     pictures.panels.push_back(static_cast<PictureSpec const&>(pictures));
-    read_picture(panel, pictures.panels.back(), bodies);
-    panel.read("caption", pictures.panels.back().caption);
+    read_picture(panel, panel_keys(), bodies, pictures.panels.back());
     panel.refuse_unknown();
   }
   if (pictures.panels.empty()) section.refuse("columns", "is used only with panels");
-  if (auto const columns = section.whole("columns")) pictures.columns = static_cast<int>(*columns);
 }
 
 void read_times(Section const& section, PicturesSpec& pictures) {
@@ -156,13 +148,10 @@ void read_times(Section const& section, PicturesSpec& pictures) {
 }  // namespace
 
 void read_pictures(Section const& section, PicturesSpec& pictures, std::span<BodySpec const> bodies) {
-  section.read("every", pictures.every);
-  section.read("up", pictures.up);
-  section.read("theme", pictures.theme);
-  section.read("labels", pictures.labels);
   read_size(section, pictures);
-  read_picture(section, pictures, bodies);
+  read_picture(section, picture_keys(), bodies, pictures);
   read_panels(section, pictures, bodies);
+  read_members(section, pictures_keys(), pictures);
   read_times(section, pictures);
   section.refuse_unknown();
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
+#include "piola/input/boundary_keys.hpp"
 #include "piola/input/sections.hpp"
 #include <algorithm>
 #include <array>
@@ -11,17 +12,17 @@ void read_point(Section const& section, std::string_view key, int dimension, std
   if (auto const point = read_components(section, key, dimension)) target = *point;
 }
 
-void read_plane(Section const& section, int dimension, RigidShape& shape) {
+void read_plane(Section const& section, int dimension, RigidSpec& shape) {
   read_point(section, "point", dimension, shape.centre);
   if (auto const normal = read_direction(section, "normal", dimension)) shape.axis = *normal;
 }
 
-void read_sphere(Section const& section, int dimension, RigidShape& shape) {
+void read_sphere(Section const& section, int dimension, RigidSpec& shape) {
   read_point(section, "centre", dimension, shape.centre);
-  section.read("radius", shape.radius);
+  read_members(section, rigid_keys(), shape);
 }
 
-void read_cylinder(Section const& section, int dimension, RigidShape& shape) {
+void read_cylinder(Section const& section, int dimension, RigidSpec& shape) {
   if (dimension != 3) {
     section.problems().add(section.place(), "rigid.cylinder is given in " + std::to_string(dimension) +
                                                 "D (allowed: 3D) - a cylinder in 2D is a sphere or a box");
@@ -33,7 +34,7 @@ void read_cylinder(Section const& section, int dimension, RigidShape& shape) {
   if (section.read("length", length)) shape.half_lengths[0] = length / 2;
 }
 
-void read_corners(Section const& section, int dimension, RigidShape& shape) {
+void read_corners(Section const& section, int dimension, RigidSpec& shape) {
   auto const min = read_components(section, "min", dimension), max = read_components(section, "max", dimension);
   if (!min || !max) return;
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
@@ -46,7 +47,7 @@ void read_corners(Section const& section, int dimension, RigidShape& shape) {
   }
 }
 
-void read_edges(Section const& section, int dimension, RigidShape& shape) {
+void read_edges(Section const& section, int dimension, RigidSpec& shape) {
   read_point(section, "centre", dimension, shape.centre);
   auto const lengths = read_components(section, "lengths", dimension);
   for (std::size_t d = 0; lengths && d < static_cast<std::size_t>(dimension); ++d)
@@ -54,7 +55,7 @@ void read_edges(Section const& section, int dimension, RigidShape& shape) {
 }
 
 // A box is given by its corners, or by its middle and its edges.
-void read_box(Section const& section, int dimension, RigidShape& shape) {
+void read_box(Section const& section, int dimension, RigidSpec& shape) {
   bool const corners = section.has("min") && section.has("max");
   bool const edges = section.has("centre") && section.has("lengths");
   auto const given = section.has("min") + section.has("max") + section.has("centre") + section.has("lengths");
@@ -69,7 +70,7 @@ void read_box(Section const& section, int dimension, RigidShape& shape) {
   }
 }
 
-void read_kind(Section const& section, int dimension, RigidShape& shape) {
+void read_kind(Section const& section, int dimension, RigidSpec& shape) {
   constexpr std::array<std::string_view, 4> kinds{"plane", "sphere", "cylinder", "box"};
   constexpr std::array readers{&read_plane, &read_sphere, &read_cylinder, &read_box};
   int given = 0;
@@ -90,7 +91,7 @@ void read_kind(Section const& section, int dimension, RigidShape& shape) {
 
 RigidSpec read_rigid(Section const& section, int dimension, std::map<std::string, double> const& constants) {
   RigidSpec rigid;
-  section.read("name", rigid.name);
+  read_members(section, rigid_keys(), rigid);
   read_kind(section, dimension, rigid);
   read_rigid_motion(section, dimension, constants, rigid);
   section.refuse_unknown();

@@ -3,6 +3,8 @@
 #include "piola/base/units.hpp"
 #include "piola/formulations/quantity_names.hpp"
 #include "piola/input/history_names.hpp"
+#include "piola/input/output_keys.hpp"
+#include "piola/input/run_keys.hpp"
 #include "piola/input/sections.hpp"
 #include <algorithm>
 #include <limits>
@@ -36,20 +38,11 @@ void read_repartition(Section const& section, RunSpec& run) {
   }
 }
 
-/// A limit, or "off".
-void read_limit(Section const& section, std::string_view key, double& limit, double off) {
-  auto const value = section.find(key);
-  if (value && value->node.is_text() && value->node.text == "off")
-    limit = off;
-  else
-    section.read(key, limit);
-}
-
 void read_jacobian(Section const& section, GuardLimits& limits) {
   auto const value = section.find("jacobian");
   if (!value) return;
   if (value->node.is_text() && value->node.text == "off") {
-    limits.jacobian = {0, std::numeric_limits<double>::infinity()};
+    limits.jacobian = {0, GuardLimits::never};
     return;
   }
   auto const items = read_list(*value, 2, 2, section.problems());
@@ -71,27 +64,13 @@ void read_guards(Section const& run, GuardLimits& limits) {
   }
   auto const section = run.table("guards");
   if (!section) return;
-  constexpr double never = GuardLimits::never;
-  read_limit(*section, "energy_rise_warn", limits.energy_rise_warn, never);
-  read_limit(*section, "energy_rise_stop", limits.energy_rise_stop, never);
-  read_limit(*section, "dissipation", limits.dissipation, never);
+  read_members(*section, guard_keys(), limits);
   read_jacobian(*section, limits);
-  read_limit(*section, "overlap", limits.overlap, never);
-  read_limit(*section, "proximity", limits.proximity, 0);
-  read_limit(*section, "strain_drift_warn", limits.strain_drift_warn, never);
-  read_limit(*section, "strain_drift_stop", limits.strain_drift_stop, never);
-  read_limit(*section, "step_warn", limits.step_warn, 0);
-  read_limit(*section, "step_stop", limits.step_stop, 0);
-  read_limit(*section, "small_strain_warn", limits.small_strain_warn, never);
-  read_limit(*section, "small_strain_stop", limits.small_strain_stop, never);
-  read_limit(*section, "small_rotation_warn", limits.small_rotation_warn, never);
-  read_limit(*section, "small_rotation_stop", limits.small_rotation_stop, never);
   section->refuse_unknown();
 }
 
 void read_frames(Section const& section, OutputSpec& output) {
-  section.read("every", output.frames_every);
-  section.read("compress", output.compress);
+  read_members(section, output_keys(), output);
   if (auto const fields = section.find("fields")) {
     auto const items = read_list(*fields, 1, 1000, section.problems());
     if (items) {
@@ -113,13 +92,7 @@ std::vector<std::string> known_fields() {
 }
 
 void read_run(Section const& section, RunSpec& run) {
-  section.read("end", run.end);
-  section.read("cfl", run.cfl);
-  section.read("max_step", run.max_step);
-  section.read("min_step", run.min_step);
-  section.read("instruction_set", run.backend);
-  section.read("damping", run.damping);
-  section.read("relax", run.relax);
+  read_members(section, run_keys(), run);
   if (!run.relax) section.refuse("relax_tolerance", "is used only with relax = true");
   section.read("relax_tolerance", run.relax_tolerance);
   read_threads(section, run);
@@ -136,12 +109,12 @@ void read_run(Section const& section, RunSpec& run) {
 void read_output(Section const& section, OutputSpec& output, std::span<BodySpec const> bodies) {
   if (auto const frames = section.table("frames")) read_frames(*frames, output);
   if (auto const history = section.table("history")) {
-    history->read("every", output.history_every);
+    read_members(*history, output_keys(), output);
     history->refuse_unknown();
   }
   if (auto const pictures = section.table("pictures")) read_pictures(*pictures, output.pictures, bodies);
   if (auto const checkpoints = section.table("checkpoints")) {
-    checkpoints->read("every", output.checkpoints_every);
+    read_members(*checkpoints, output_keys(), output);
     checkpoints->refuse_unknown();
   }
   section.refuse_unknown();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
+#include "piola/input/boundary_keys.hpp"
 #include "piola/input/sections.hpp"
 #include <algorithm>
 
@@ -52,12 +53,10 @@ void read_between(Section const& section, std::vector<BodyNames> const& bodies, 
 
 TieSpec read_tie(Section const& section, std::vector<BodyNames> const& bodies, std::vector<RigidSpec> const& rigids) {
   TieSpec tie;
-  section.read("name", tie.name);
+  read_members(section, tie_keys(), tie);
   read_between(section, bodies, rigids, tie);
   if (auto where = section.formula("where", bodies.empty() ? Names{} : bodies[tie.bodies[0]].names))
     tie.where = std::move(*where);
-  section.read("stiffness", tie.stiffness);
-  section.read("strength", tie.strength);
   if (section.has("strength")) {
     if (!section.has("toughness"))
       section.report_missing("toughness", "energy that failure takes per area", "toughness = \"100 J/m^2\"");

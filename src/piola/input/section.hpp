@@ -46,6 +46,7 @@ class Section {
   Section(Node const& node, std::string section, Problems& problems);
 
   Node const& node() const { return node_; }
+  std::string const& name() const { return section_; }  ///< as in KeyInfo::section
   Place const& place() const { return node_.place; }
   Problems& problems() const { return problems_; }
   bool has(std::string_view key) const { return node_.find(key) != nullptr; }

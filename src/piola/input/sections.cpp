@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/sections.hpp"
 #include "piola/base/text.hpp"
+#include "piola/base/units.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -67,6 +68,15 @@ std::optional<std::array<double, 3>> read_direction(Section const& section, std:
   }
   for (double& component : *direction) component /= length;
   return direction;
+}
+
+void check_order(Section const& section, std::pair<std::string_view, double> low,
+                 std::pair<std::string_view, double> high, std::string_view unit) {
+  if (!section.has(high.first) || low.second <= high.second) return;
+  section.problems().add(section.place_of(high.first), section.name_of(high.first) + " is " +
+                                                           quantity_text(high.second, unit) + " (allowed: at least " +
+                                                           section.name_of(low.first) + ", which is " +
+                                                           quantity_text(low.second, unit) + ")");
 }
 
 Places places_of(Section const& section, std::initializer_list<char const*> keys) {

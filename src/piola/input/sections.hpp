@@ -7,6 +7,8 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace piola {
@@ -33,6 +35,9 @@ std::optional<std::vector<Expression>> read_formulas(Value const& value, std::st
 std::optional<std::array<double, 3>> read_components(Section const& section, std::string_view key, int dimension);
 /// As read_components(), normalised to a unit vector.
 std::optional<std::array<double, 3>> read_direction(Section const& section, std::string_view key, int dimension);
+/// Reports the second of two keys if it is given and below the first: key, value.
+void check_order(Section const& section, std::pair<std::string_view, double> low,
+                 std::pair<std::string_view, double> high, std::string_view unit);
 /// Places of the section and of those of `keys` that it gives.
 Places places_of(Section const& section, std::initializer_list<char const*> keys);
 
@@ -43,7 +48,7 @@ void read_pictures(Section const& section, PicturesSpec& pictures, std::span<Bod
 /// Names of all fields.
 std::vector<std::string> known_fields();
 /// The part of read_pictures() for the appearance of bodies. Missing keys of a panel leave `appearance` unchanged.
-void read_appearance(Section const& pictures, std::span<BodySpec const> bodies, AppearanceSpec& appearance);
+void read_appearance(Section const& pictures, std::span<BodySpec const> bodies, Appearance& appearance);
 std::map<std::string, double> read_constants(Value const& value, Problems& problems);
 
 /// `names`: constants, for formulas.
@@ -70,11 +75,6 @@ SupportSpec read_support(Section const& section, std::vector<BodyNames> const& b
 LoadSpec read_load(Section const& section, std::vector<BodyNames> const& bodies);
 MirrorSpec read_mirror(Section const& section, std::vector<BodyNames> const& bodies);
 CrackSpec read_crack(Section const& section, std::vector<BodyNames> const& bodies);
-/// Whether a probe measures the debris of a whole body: kinds fragment, rim and hole.
-bool is_cluster_probe(ProbeSpec::Kind kind);
-/// Reads the keys of kinds with is_cluster_probe(), including keys that other kinds have, too. Refuses the former for
-/// other kinds. Without a body, reads only keys that do not depend on it.
-void read_cluster_probe(Section const& section, BodyNames const* body, ProbeSpec& probe);
 /// `dimension` is that of the bodies; `constants` may be used in the velocity.
 RigidSpec read_rigid(Section const& section, int dimension, std::map<std::string, double> const& constants);
 /// The part of read_rigid that reads how the shape moves.

@@ -4,7 +4,7 @@
 #include <vector>
 
 /// Clumping of particles and fragmentation of bodies. Each function returns the values at one time in the order of
-/// own_quantities; its cost is linear in the number of particles.
+/// probe_kinds; its cost is linear in the number of particles.
 namespace piola {
 
 /// Kind spacing: distances from the measured particles to their nearest neighbours in any body, over the body's initial

@@ -4,7 +4,7 @@
 #include "piola/base/errors.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/exec/reproducible_sum.hpp"
-#include "piola/input/probe_quantities.hpp"
+#include "piola/input/probe_kinds.hpp"
 #include "piola/measures/fragments.hpp"
 #include "piola/measures/rim_and_hole.hpp"
 #include "piola/measures/stress_intensity.hpp"
@@ -51,7 +51,7 @@ std::vector<std::int64_t> selected(ParticleSet const& particles, Body const& bod
 
 std::vector<FieldQuantity> quantities_of(ProbeSpec const& spec) {
   std::vector<FieldQuantity> list;
-  if (!own_quantities(spec.kind).empty()) return list;
+  if (!info_of(spec.kind).quantities.empty()) return list;
   for (std::string const& name : spec.quantities) {
     auto quantity = find_quantity(name);
     if (!quantity)
@@ -64,7 +64,7 @@ std::vector<FieldQuantity> quantities_of(ProbeSpec const& spec) {
 
 /// Which of the numbers of a kind the probe gives; all of them if it names none.
 std::vector<std::size_t> own_of(ProbeSpec const& spec) {
-  auto const own = own_quantities(spec.kind);
+  auto const own = info_of(spec.kind).quantities;
   std::vector<std::size_t> list;
   for (std::size_t k = 0; k < own.size(); ++k) {
     auto const& asked = spec.quantities;
@@ -131,7 +131,7 @@ void Probe::share(std::optional<std::vector<std::int64_t>> const& owned) {
 std::vector<HistoryColumn> Probe::columns() const {
   std::vector<HistoryColumn> list;
   for (std::size_t const k : own_) {
-    HistoryName const& own = own_quantities(kind_)[k];
+    HistoryName const& own = info_of(kind_).quantities[k];
     list.push_back({fmt::format("{}.{}", name_, own.name), std::string(own.unit)});
   }
   for (FieldQuantity const& q : quantities_) list.push_back({fmt::format("{}.{}", name_, q.name), q.unit});

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <optional>
 
 namespace piola {
 namespace {
@@ -101,24 +100,9 @@ std::span<PictureSpec const> panels_of(PicturesSpec const& pictures) {
   return pictures.panels;
 }
 
-Representation representation_of(std::string_view word) {
-  auto const found = std::find(representation_words.begin(), representation_words.end(), word);
-  if (found == representation_words.end()) return Representation::automatic;
-  return static_cast<Representation>(found - representation_words.begin());
-}
-
-Appearance appearance_of(CaseSpec const& spec, PictureSpec const& picture) {
-  AppearanceSpec const& said = picture.appearance;
-  Appearance appearance;
-  appearance.as.assign(std::max<std::size_t>(spec.bodies.size(), 1), representation_of(said.as));
-  for (AppearanceSpec::BodyInput const& one : said.of_body)
-    for (std::size_t b = 0; b < spec.bodies.size(); ++b)
-      if (spec.bodies[b].name == one.body) appearance.as[b] = representation_of(one.as);
-  appearance.outline = said.outline;
-  appearance.quality = picture.quality == "high" ? Quality::high : Quality::normal;
-  if (picture.ground) appearance.ground = View{0, 0, upwards(spec)}.up();
-  if (said.cut) appearance.cut = {said.cut->point, said.cut->normal, said.cut->ghost, said.cut->in_reference};
-  return appearance;
+std::optional<Point3> ground_of(CaseSpec const& spec, PictureSpec const& picture) {
+  if (!picture.ground) return std::nullopt;
+  return View{0, 0, upwards(spec)}.up();
 }
 
 std::string title_of(std::string const& title, PictureSpec const& picture) {

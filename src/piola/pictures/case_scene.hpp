@@ -4,9 +4,9 @@
 #include "piola/input/case_spec.hpp"
 #include "piola/output/frame_reader.hpp"
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace piola {
@@ -23,11 +23,8 @@ std::vector<RigidShape> shapes_at(std::vector<RigidSpec> const& rigids, double t
 /// The panels of a case, or its picture alone.
 std::span<PictureSpec const> panels_of(PicturesSpec const& pictures);
 
-/// The representation of a word of representation_words.
-Representation representation_of(std::string_view word);
-
-/// How the bodies of a picture of a case are drawn.
-Appearance appearance_of(CaseSpec const& spec, PictureSpec const& picture);
+/// Upwards, if the picture shows a ground below the bodies: see PictureData::ground.
+std::optional<Point3> ground_of(CaseSpec const& spec, PictureSpec const& picture);
 
 /// The title of a picture: that of the case, with the magnification of displacements.
 std::string title_of(std::string const& title, PictureSpec const& picture);

@@ -134,7 +134,7 @@ PicturedRun PicturedRun::in(std::filesystem::path const& folder) {
 
 FramePictures::FramePictures(PicturedRun run) : run_(std::move(run)), meshes_(reference_meshes(run_.particles)) {
   for (PictureSpec const& spec : panels_of(run_.spec.output.pictures)) {
-    PanelView& view = views_.emplace_back(PanelView{.spec = spec, .appearance = appearance_of(run_.spec, spec)});
+    PanelView& view = views_.emplace_back(PanelView{.spec = spec});
     if (spec.supports) view.held = held_particles(run_.spec, run_.particles);
   }
 }
@@ -268,6 +268,7 @@ PictureData FramePictures::data(Shot const& shot, std::size_t panel, Torn const&
           .eye = eye_at(view.camera, subject(shot, panel)),
           .time_format = time_format(),
           .body = shot.body,
+          .ground = ground_of(run_.spec, view.spec),
           .meshes = shot.of_case ? std::span<ReferenceMesh const>(meshes_) : std::span<ReferenceMesh const>(),
           .loose = shot.loose,
           .held = shot.of_case ? std::span<std::uint8_t const>(view.held) : std::span<std::uint8_t const>(),
@@ -277,7 +278,7 @@ PictureData FramePictures::data(Shot const& shot, std::size_t panel, Torn const&
 PictureStyle FramePictures::style(std::size_t panel, Window const& window) const {
   PanelView const& view = views_[panel];
   PictureStyle style = style_of(view.spec, view.camera, window);
-  style.appearance = view.appearance;
+  style.appearance = view.spec.appearance;
   return style;
 }
 
@@ -301,6 +302,7 @@ Image FramePictures::sheet(std::span<FramePictures const* const> runs, std::span
   for (std::size_t n = 0; n < runs.size(); ++n) shots.push_back(runs[n]->read(runs[n]->frames_[frames[n]].path));
   for (std::size_t n = 0; n < runs.size(); ++n)
     data.push_back(runs[n]->data(shots[n], 0, runs[n]->frames_[frames[n]].torn));
+  for (PictureData& one : data) one.ground = data.front().ground;  // as the style: that of the first run
   for (std::size_t n = 0; n < runs.size(); ++n) {
     PanelView const& view = runs[n]->views_.front();
     panels.push_back({data[n], shown_window(view.window, view.camera, runs[n]->subject(shots[n], 0)), captions[n]});

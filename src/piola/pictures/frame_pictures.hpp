@@ -92,7 +92,6 @@ class FramePictures {
   using Torn = std::vector<std::vector<Index>>;  ///< cells of each body, see current_torn_cells
   struct PanelView {
     PictureSpec spec;
-    Appearance appearance;
     std::vector<std::uint8_t> held = {};  ///< by supports, if they are shown
     Camera camera = {};                   ///< set by the first frame, as the following two
     FieldInfo field = {};

@@ -9,59 +9,17 @@
 #include <fmt/ranges.h>
 
 namespace piola {
-namespace {
-
-/// The number of a word in its list.
-template <std::size_t N>
-std::size_t number_of(std::string_view word, std::array<std::string_view, N> const& words, char const* what) {
-  auto const found = std::find(words.begin(), words.end(), word);
-  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  throw InputError(
-      fmt::format("{}: '{}' is not known (allowed: {}) - choose one of these", what, word, fmt::join(words, ", ")));
-}
-
-}  // namespace
-
-PictureSpec with_overrides(PictureSpec picture, PictureOverrides const& look) {
-  auto const take = [](auto& target, auto const& given) {
-    if (given) target = *given;
-  };
-  auto const take_word = [](std::string& target, std::string const& given) {
-    if (!given.empty()) target = given;
-  };
-  if (look.view) picture.named_view.clear();
-  take(picture.view, look.view);
-  if (!look.named_view.empty()) number_of(look.named_view, view_words, "view");
-  take_word(picture.named_view, look.named_view);
-  if (look.up != "auto") picture.up = look.up;
-  take(picture.roll, look.roll);
-  take(picture.zoom, look.zoom);
-  take(picture.perspective, look.perspective);
-  take(picture.labels, look.labels);
-  take(picture.warp, look.warp);
-  take_word(picture.quality, look.quality);
-  number_of(picture.quality, quality_words, "quality");
-  picture.ground = picture.ground || look.ground;
-  picture.supports = picture.supports || look.supports;
-  if (look.look_at) picture.look_at = look.look_at;
-  take_word(picture.follow, look.follow);
-  take_word(picture.theme, look.theme);
-  take_word(picture.map, look.map);
-  number_of(picture.theme, theme_words, "theme");
-  number_of(picture.map, palette_words, "map");
-  if (look.size) {
-    picture.width = (*look.size)[0];
-    picture.height = (*look.size)[1];
-  }
-  return picture;
-}
 
 Camera camera_of(PictureSpec const& picture, Up up, std::span<BodySpec const> bodies, int dimension) {
   PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
   PIOLA_EXPECTS(picture.zoom > 0);
   Camera camera{
       .view = {picture.view[0], picture.view[1], up, picture.roll}, .zoom = picture.zoom, .look_at = picture.look_at};
-  if (auto const named = named_view(picture.named_view, up)) {
+  if (!picture.named_view.empty()) {
+    auto const named = named_view(picture.named_view, up);
+    if (!named)
+      throw InputError(fmt::format("view: '{}' is not known (allowed: {}) - choose one of these", picture.named_view,
+                                   fmt::join(view_words, ", ")));
     camera.view.azimuth = (*named)[0];
     camera.view.elevation = (*named)[1];
   }
@@ -89,9 +47,9 @@ PictureStyle style_of(PictureSpec const& picture, Camera const& camera, Window c
           .height = size[1],
           .view = camera.view,
           .range = picture.range ? picture.range : whole_range(picture.field),
-          .theme = static_cast<Theme>(number_of(picture.theme, theme_words, "theme")),
+          .theme = picture.theme,
           .labels = picture.labels,
-          .palette = palette_for(picture.field, static_cast<Palette>(number_of(picture.map, palette_words, "map")))};
+          .palette = palette_for(picture.field, picture.map)};
 }
 
 }  // namespace piola

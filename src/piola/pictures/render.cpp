@@ -17,37 +17,45 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Applies the options that concern how bodies are drawn.
-void change_appearance(AppearanceSpec& appearance, std::vector<BodySpec> const& bodies, RenderOptions const& options) {
+/// The way to draw bodies that this word of an option names.
+Representation representation_of(std::string const& word) {
+  auto const found = std::find(representation_words.begin(), representation_words.end(), word);
+  if (found == representation_words.end())
+    throw InputError(fmt::format("--as: {} is no way to draw bodies (allowed: {}) - choose one of these", word,
+                                 fmt::join(representation_words, ", ")));
+  return static_cast<Representation>(found - representation_words.begin());
+}
+
+/// Applies the options "WORD" and "BODY=WORD".
+void draw_bodies_as(std::vector<std::string> const& options, std::vector<BodySpec> const& bodies,
+                    Appearance& appearance) {
   std::vector<std::string> names;
   for (BodySpec const& body : bodies) names.push_back(body.name);
-  for (std::string const& one : options.as) {
+  std::size_t const count = std::max<std::size_t>(bodies.size(), 1);
+  for (std::string const& one : options) {
     auto const sign = one.find('=');
-    std::string const word = sign == std::string::npos ? one : one.substr(sign + 1), body = one.substr(0, sign);
-    if (std::find(representation_words.begin(), representation_words.end(), word) == representation_words.end())
-      throw InputError(fmt::format("--as: {} is no way to draw bodies (allowed: {}) - choose one of these", word,
-                                   fmt::join(representation_words, ", ")));
+    std::string const body = one.substr(0, sign);
+    Representation const as = representation_of(sign == std::string::npos ? one : one.substr(sign + 1));
     if (sign == std::string::npos) {
-      appearance.as = word;
-      appearance.of_body.clear();
-    } else if (std::find(names.begin(), names.end(), body) != names.end()) {
-      appearance.of_body.push_back({body, word, {}});
-    } else {
+      appearance.as.assign(count, as);
+      continue;
+    }
+    auto const found = std::find(names.begin(), names.end(), body);
+    if (found == names.end())
       throw InputError(
           fmt::format("--as: there is no body '{}' (allowed: {}) - name one of these", body,
                       names.empty() ? "none without a case.toml" : fmt::format("{}", fmt::join(names, ", "))));
-    }
+    appearance.as.resize(count, Representation::automatic);
+    appearance.as[static_cast<std::size_t>(found - names.begin())] = as;
   }
-  appearance.outline = appearance.outline && options.outline;
-  if (options.cut) appearance.cut = options.cut;
 }
 
 /// The pictures of a case with the requested fields, range and view.
 PicturesSpec as_asked(CaseSpec const& spec, RenderOptions const& options) {
   PicturesSpec pictures = spec.output.pictures;
   auto const change = [&](PictureSpec& picture) {
-    picture = with_overrides(picture, options.look);
-    change_appearance(picture.appearance, spec.bodies, options);
+    for (auto const& change_one : options.look) change_one(picture);
+    draw_bodies_as(options.as, spec.bodies, picture.appearance);
     if (options.panels) return;
     picture.field = options.field;
     picture.component = options.component;

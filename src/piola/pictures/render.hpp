@@ -22,9 +22,7 @@ struct RenderOptions {
   /// Folders of other runs, whose frames nearest in time are drawn in adjacent panels, with one range and one scale.
   std::vector<std::filesystem::path> beside = {};
   std::vector<std::string> as = {};  ///< "skin" for all bodies, "BODY=balls" for one, in addition to the case
-  std::optional<AppearanceSpec::Cut> cut = {};  ///< replaces that of the case
-  bool panels = false;                          ///< draw the panels of the case instead of the field
-  bool outline = true;                          ///< false: no outline
+  bool panels = false;               ///< draw the panels of the case instead of the field
 };
 
 /// Draws frames of a run to FIELD-000000.png, or FIELD-x-000000.png of a component, with the number of the frame,

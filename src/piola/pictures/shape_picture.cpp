@@ -83,7 +83,7 @@ Image draw_shape(CaseSpec const& spec, ParticleSet const& particles, ShapePictur
   Stage const stage = Stage::around(points);
   CaseSpec asked = spec;
   PictureSpec& picture = asked.output.pictures;
-  picture = with_overrides(picture, options.look);
+  for (auto const& change : options.look) change(picture);
   Camera camera = camera_of(picture, upwards(asked), spec.bodies, particles.dimension);
   Subject const subject{.points = points,
                         .volume = particles.volume,

@@ -5,7 +5,7 @@
 
 namespace piola {
 
-/// How the bodies of a case are drawn before a run; defaults are the picture settings of the case.
+/// How the bodies of a case are drawn before a run: with the picture settings of the case, changed by `look`.
 struct ShapePictureOptions {
   PictureOverrides look = {};
   bool patches = false;  ///< colours by patch: interior particles are grey
