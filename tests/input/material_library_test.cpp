@@ -177,6 +177,9 @@ TEST(CaseLibrary, MaterialsOfItsFilesAreUsedByNameAndChanged) {
     return 0.;
   };
   EXPECT_DOUBLE_EQ(density(spec), 7850);
+  Place const place = spec.bodies[0].places.at("material.density");
+  EXPECT_EQ(place.file, (with.folder / "my.toml").string());
+  EXPECT_EQ(place.line, 10);
   EXPECT_DOUBLE_EQ(density(with.read({"body.column.material.density=7900"})), 7900);
 }
 

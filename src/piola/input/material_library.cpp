@@ -127,7 +127,7 @@ class LibraryMaterialReader {
       return entry.value;
     }
     refuse_other_keys(entry.value, name, number_keys, problems_);
-    LibraryNumber number{entry.key, 0, "", Checked::unread};
+    LibraryNumber number{entry.key, 0, "", Checked::unread, entry.value.place};
     if (Node const* const source = part(entry, "source", "key of a source, here or below [sources]"))
       number.source = read_source({*source, name + ".source"});
     if (Node const* const checked = part(entry, "checked", joined(checked_words)))
@@ -232,6 +232,8 @@ MaterialLibrary const& material_library() {
     for (BuiltInLibraryFile const& file : built_in_library_files())
       read_library_file(file.text, std::string(file.name), all, problems);
     problems.raise_if_any();
+    for (LibraryMaterial& material : all.materials)
+      for (LibraryNumber& number : material.numbers) number.place = {};  // in files that users do not have
     return all;
   }();
   return library;

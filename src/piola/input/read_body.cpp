@@ -164,8 +164,8 @@ BodySpec read_body(Section const& section, Names const& common, MaterialLibrary 
   body.initial_displacement = read_vector(section, "initial_displacement", names);
   body.initial_deformation_gradient = read_gradient(section, names);
   section.refuse_unknown();
-  body.places = places_of(section, {"name", "shape", "material", "formulation", "initial_velocity",
-                                    "initial_displacement", "initial_deformation_gradient"});
+  body.places.merge(places_of(section, {"name", "shape", "material", "formulation", "initial_velocity",
+                                        "initial_displacement", "initial_deformation_gradient"}));
   for (std::string const table : {"material", "formulation"}) add_places_within(section, table, body.places);
   return body;
 }

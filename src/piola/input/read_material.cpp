@@ -177,6 +177,10 @@ void read_material(Section const& section, MaterialLibrary const& library, BodyS
   if (!name) return;
   body.law = *name;
   body.material = MaterialReader(section, *find_law(*name), base).read();
+  if (base == nullptr) return;
+  for (LibraryNumber const& number : base->numbers)
+    if (number.place.line > 0 && !section.has(number.parameter))
+      body.places["material." + number.parameter] = number.place;
 }
 
 void read_formulation_formulas(Section const& section, std::span<FormulaInfo const> formulas, Names const& names,

@@ -35,13 +35,14 @@ PartSpec read_part(Section const& section, BodyNames const& body, std::vector<Re
       read_material(Section(value->node, "body.material", section.problems()), library, of);
       part.material = of.material;
       part.law = of.law;
+      part.places = of.places;
     } else {
       section.problems().add(value->node.place, value->name + " is " + shown(value->node) +
                                                     " (allowed: a table) - write material = { ... }");
     }
   }
   section.refuse_unknown();
-  part.places = places_of(section, {"where", "material"});
+  part.places.merge(places_of(section, {"where", "material"}));
   return part;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/base/errors.hpp"
 #include "piola/materials/registry.hpp"
 #include <array>
 #include <optional>
@@ -35,6 +36,7 @@ struct LibraryNumber {
   double value = 0;    ///< SI
   std::string source;  ///< LibrarySource::key
   Checked checked = Checked::unread;
+  Place place = {};  ///< in a file of the user
 };
 
 /// A material that a case file names instead of giving a law and numbers: `material = { name = "steel_4340" }`.
