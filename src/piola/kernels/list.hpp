@@ -21,10 +21,18 @@ using Kernels = KernelList<CubicSpline, QuarticSpline, QuinticSpline, WendlandC2
 /// Kernels that loops over moving neighbours can evaluate, lane by lane.
 using LaneKernels = KernelList<CubicSpline, WendlandC2>;
 
+/// Whether a kernel is the one of class K. The local copy keeps K::name out of object files: joined backends would each
+/// define it.
+template <class K>
+bool is_kernel(Kernel const& chosen) {
+  constexpr std::string_view name = K::name;
+  return chosen.name == name;
+}
+
 /// f.template operator()<K>() for the kernel of the list that was chosen.
 template <class F, class... K>
 void with_kernel(Kernel const& chosen, KernelList<K...>, F const& f) {
-  static_cast<void>(((chosen.name == K::name && (f.template operator()<K>(), true)) || ...));
+  static_cast<void>(((is_kernel<K>(chosen) && (f.template operator()<K>(), true)) || ...));
 }
 
 }  // namespace piola::inline PIOLA_BACKEND
