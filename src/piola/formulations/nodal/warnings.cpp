@@ -46,7 +46,7 @@ void warn_of_following_pressures(Assembly const& assembly, std::size_t body, Bod
 
 }  // namespace
 
-/// Three particles across are a little stiff in bending near incompressibility (docs/theory/nodal.md, section 5).
+/// Three particles across are a little stiff in bending near incompressibility (docs/theory/nodal.md, section 8).
 void add_setting_warnings(Assembly const& assembly, std::size_t body, BodyWarnings& warnings) {
   constexpr double nearly = 0.4901;
   constexpr int few = 3;
