@@ -33,11 +33,11 @@ double number_of(double h, double dp, double n) {
 template <int D>
 double potential(System const& s, Index i, Index j, double r) {
   KernelContactPair const& pair = s.contact.pair[s.body_of[i] * s.bodies + s.body_of[j]];
-  if (s.contact.law == 2) return r < pair.dp ? 0.5 * pair.eps * std::pow(1 - r / pair.dp, 2) : 0;
+  if (s.contact.law == ContactLaw::linear) return r < pair.dp ? 0.5 * pair.eps * std::pow(1 - r / pair.dp, 2) : 0;
   Kernel<D> const kernel(pair.h);
-  double const eps = s.contact.law == 1
+  double const eps = s.contact.law == ContactLaw::kernel
                          ? pair.eps
-                         : s.contact.as_published * value_at(s.field.volume, i) * value_at(s.field.volume, j);
+                         : s.contact.published_stiffness * value_at(s.field.volume, i) * value_at(s.field.volume, j);
   return eps * std::pow(kernel(r) / kernel(pair.dp), pair.exponent);
 }
 

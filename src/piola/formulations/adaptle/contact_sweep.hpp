@@ -49,16 +49,16 @@ struct ContactSweep {
 
  private:
   PIOLA_FN ContactForce force_of(KernelContactPair const& pair, Index i, Index j, double r) const {
-    if (table.law == 2) return linear_contact(pair, r);
-    if (table.law == 1) return kernel_contact<D>(pair, r);
-    KernelContactPair as_published = pair;
-    as_published.eps = table.as_published * volume_half.at(i) * volume_half.at(j);
-    return kernel_contact<D>(as_published, r);
+    if (table.law == ContactLaw::linear) return linear_contact(pair, r);
+    if (table.law == ContactLaw::kernel) return kernel_contact<D>(pair, r);
+    KernelContactPair published = pair;
+    published.eps = table.published_stiffness * volume_half.at(i) * volume_half.at(j);
+    return kernel_contact<D>(published, r);
   }
 
   /// Factor by which the law is steeper than for n = 4, for which steps are set.
   PIOLA_FN double sharpness(KernelContactPair const& pair) const {
-    return table.law != 2 && pair.exponent > 4 ? pair.exponent / 4 : 1;
+    return table.law != ContactLaw::linear && pair.exponent > 4 ? pair.exponent / 4 : 1;
   }
 
   /// Closing speed of two particles at the distance r [m/s].

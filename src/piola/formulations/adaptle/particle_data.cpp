@@ -36,10 +36,13 @@ void take_constants(Law const& law, BodyOptions const& o, double kernel_volume, 
   b.poisson = (3 * law.kappa - 2 * law.mu) / (2 * (3 * law.kappa + law.mu));
 }
 
-/// Number of the law in ContactTable; 0: no contact between bodies.
-int number_of(ContactRule::Law law) {
-  using Law = ContactRule::Law;
-  return law == Law::kernel ? 1 : law == Law::linear ? 2 : law == Law::as_published ? 3 : 0;
+ContactLaw law_of(ContactRule const& rule) {
+  switch (rule.law) {
+    case ContactRule::Law::kernel: return ContactLaw::kernel;
+    case ContactRule::Law::linear: return ContactLaw::linear;
+    case ContactRule::Law::as_published: return ContactLaw::as_published;
+    default: return ContactLaw::none;
+  }
 }
 
 }  // namespace
@@ -99,9 +102,9 @@ void ParticleData::set_contact(Assembly const& assembly) {
   exclude_tied_pairs(assembly.ties, body_.size(), contact_pairs_);
   mark_surface_contact(assembly, contact_pairs_);
   system_.contact.pair = contact_pairs_.data();
-  system_.contact.as_published = assembly.contact.stiffness;
+  system_.contact.published_stiffness = assembly.contact.stiffness;
   system_.contact.scale = assembly.contact.scale;
-  system_.contact.law = number_of(assembly.contact.law);
+  system_.contact.law = law_of(assembly.contact);
 }
 
 void ParticleData::allocate(Options const& options, bool rigid_shapes) {
@@ -176,8 +179,8 @@ void ParticleData::set_reference() {
       bool const deforms = fields_.holds(fields_.F) && fields_.active.at(i) > 0;  // deleted particles keep theirs
       for (int c = 0; c < 9 && deforms; ++c) fields_.F.at(i, c) = c % 4 == 0 ? 1 : 0;
     }
-  set_point(0);                  // where cells of space begin
-  if (system_.contact.law == 3)  // data of both sides for the potential of the published law
+  set_point(0);                                         // where cells of space begin
+  if (system_.contact.law == ContactLaw::as_published)  // its potential needs data of both sides
     for (Index i = 0; i < system_.particles; ++i) set_point(i);
 }
 

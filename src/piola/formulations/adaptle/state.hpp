@@ -18,6 +18,14 @@ enum class Viscosity { compression, monaghan, balsara, morris_monaghan, riemann 
 /// Artificial stress between a total-Lagrangian and an Eulerian particle.
 enum class MixedStress { both, eulerian_only, none };
 
+/// Laws of contact between bodies, but for surface contact.
+enum class ContactLaw {
+  none,
+  kernel,       ///< U = eps (W(r) / W(dp))^n
+  linear,       ///< a spring below dp
+  as_published  ///< as kernel, with eps = K V_a V_b
+};
+
 /// Index in the lists of reference neighbours: tens of millions of particles have more pairs than an Index can count.
 using Offset = std::int64_t;
 
@@ -173,8 +181,8 @@ struct ContactTable {
   Index const* list = nullptr;              ///< [target][capacity]: sorted numbers of particles of other bodies
   Index const* length = nullptr;            ///< per target
   KernelContactPair const* pair = nullptr;  ///< [body][body]
-  int law = 0;
-  double as_published = 0;
+  ContactLaw law = ContactLaw::none;
+  double published_stiffness = 0;      ///< K of the published law
   double scale = 1;                    ///< of the stiffness of rigid shapes
   std::uint8_t const* lost = nullptr;  ///< per slot: whether its surface is lost (LostSurfaces)
 
