@@ -160,8 +160,6 @@ class Solver final : public Formulation {
   void tell_failures();
   static double neighbours_of(JstBody const& body, Index slot);
   void place_stages(JstBody& body) const;
-  template <class F>
-  void each_evolved(JstBody const& body, std::size_t number, F const& f) const;
 
   ParticleSet set_;
   SlotsById slots_;
@@ -216,30 +214,11 @@ std::optional<Failure> Solver::failure() const {
   return std::nullopt;
 }
 
-/// Calls f(name, field) for the evolved state of a body, i.e. the content of a checkpoint.
-template <class F>
-void Solver::each_evolved(JstBody const& body, std::size_t number, F const& f) const {
-  int const D = set_.dimension;
-  auto const& s = body.state();
-  f(fmt::format("body{}_position", number), s.x, D);
-  f(fmt::format("body{}_velocity", number), s.v, D);
-  f(fmt::format("body{}_deformation_gradient", number), s.F, D * D);
-  f(fmt::format("body{}_wave_speed", number), s.wave_speed, 1);
-  bool const area = s.constants.variables == Variables::pFHJ, volume = evolves_volume(s.constants.variables);
-  if (area) f(fmt::format("body{}_area_map", number), s.H, 9);
-  if (volume) f(fmt::format("body{}_volume_ratio", number), s.J, 1);
-  if (s.constants.integrator == Integrator::verlet) f(fmt::format("body{}_acceleration", number), s.rate, D);
-  if (s.constants.kappa_filtered > 0) {
-    f(fmt::format("body{}_filtered_ratio", number), s.filtered_ratio, 1);
-    f(fmt::format("body{}_filtered_pressure", number), s.filtered_pressure, 1);
-  }
-}
-
 void Solver::save(StateWriter& writer) const {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     JstBody const& body = *bodies_[k];
-    each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
-      save_local(writer, name, body, field, components);
+    body.each_evolved([&](std::string const& name, FieldRef const& field, int components) {
+      save_local(writer, fmt::format("body{}_{}", k, name), body, field, components);
     });
     auto const& totals = body.state().totals;
     std::array const energy_totals{totals.stabilisation_loss, totals.projection_loss, body.external_work().over_ranks(),
@@ -269,7 +248,7 @@ void Solver::tell_failures() {
     allreduce_first_failure(found);
     if (found.index >= body.particles()) continue;
     *body.state().failure = found;
-    each_evolved(body, k, [&](std::string const&, FieldRef const& field, int components) {
+    body.each_evolved([&](std::string const&, FieldRef const& field, int components) {
       allgather_selected_slots(field, body.own(), std::array{found.index}, components);
     });
     failed_neighbours_[k] = neighbours_of(body, found.index);
@@ -298,8 +277,8 @@ void Solver::share_failures() {
 void Solver::load(StateReader& reader) {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     JstBody& body = *bodies_[k];
-    each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
-      load_local(reader, name, body, field, components);
+    body.each_evolved([&](std::string const& name, FieldRef const& field, int components) {
+      load_local(reader, fmt::format("body{}_{}", k, name), body, field, components);
     });
     place_stages(body);
     std::array<double, 4> energy_totals{};
