@@ -51,7 +51,7 @@ class JstBody {
   void step(Backend const& backend, double time, double dt);
   /// Multiplies the velocities that are not prescribed, and adds the lost energy to the damping loss.
   void damp(double factor);
-  /// Of loads and of driven supports since the start [J].
+  /// Work of loads and of driven supports since the start [J].
   DeferredGlobalSum& external_work() { return external_work_; }
   DeferredGlobalSum const& external_work() const { return external_work_; }
   double kinetic_energy() const;  ///< over all ranks [J]; collective

@@ -4,7 +4,7 @@
 
 namespace piola::jst_sph {
 
-/// What a body has beyond positions, velocities and F; decides which fields exist.
+/// Conditions under which a body has fields beyond positions, velocities and F.
 struct FieldNeeds {
   bool displacement = false;     ///< F follows from positions
   bool verlet = false;           ///< velocity Verlet, else two stages of Runge-Kutta

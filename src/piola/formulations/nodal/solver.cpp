@@ -80,7 +80,7 @@ class Solver final : public Formulation, public SetUpChecked {
     add_coupled_particles(bodies_, slots_, ids, x, v);
   }
   void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
-    read_masses_of(bodies_, slots_, ids, m, [](auto const& body, Index slot) { return body.known_mass(slot); });
+    read_masses_of(bodies_, slots_, ids, m, [](auto const& body, Index slot) { return body.replicated_mass(slot); });
   }
   void add_velocities(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
     add_velocities_of(bodies_, set_.dimension, slots_, ids, change);
@@ -159,8 +159,6 @@ class Solver final : public Formulation, public SetUpChecked {
     seen.failure = &failure;
     backend_.observe(seen);
   }
-  template <class F>
-  void each_evolved(NodalBody const& body, std::size_t number, F const& f) const;
   bool failed() const {
     return std::any_of(bodies_.begin(), bodies_.end(),
                        [](auto const& body) { return body->state().failure->index < body->particles(); });
@@ -264,25 +262,11 @@ std::vector<SetUpCheck> Solver::set_up_checks() const {
   return all;
 }
 
-/// Calls f(name, field, components) for the evolved state of a body, i.e. the content of a checkpoint.
-template <class F>
-void Solver::each_evolved(NodalBody const& body, std::size_t number, F const& f) const {
-  int const D = set_.dimension;
-  auto const& s = body.state();
-  f(fmt::format("body{}_position", number), s.x, D);
-  f(fmt::format("body{}_velocity", number), s.v, D);
-  f(fmt::format("body{}_acceleration", number), s.a, D);
-  f(fmt::format("body{}_measured_stretch", number), s.C_measured, D * (D + 1) / 2);
-  f(fmt::format("body{}_change", number), s.change, 2);
-  if (body.stores_history()) f(fmt::format("body{}_solid_history", number), s.history, Fields::solid_values(D));
-  if (body.viscous()) f(fmt::format("body{}_viscous_history", number), s.viscous, Fields::viscous_values(D));
-}
-
 void Solver::save(StateWriter& writer) const {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     NodalBody const& body = *bodies_[k];
-    each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
-      save_local(writer, name, body, field, components);
+    body.each_evolved([&](std::string const& name, FieldRef const& field, int components) {
+      save_local(writer, fmt::format("body{}_{}", k, name), body, field, components);
     });
     writer.put(fmt::format("body{}_step_limit", k), monitors_[k]->state());
     writer.put(fmt::format("body{}_energy_books", k),
@@ -296,8 +280,8 @@ void Solver::load(StateReader& reader) {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     NodalBody& body = *bodies_[k];
     body.set_observed(false);
-    each_evolved(body, k, [&](std::string const& name, FieldRef const& field, int components) {
-      load_local(reader, name, body, field, components);
+    body.each_evolved([&](std::string const& name, FieldRef const& field, int components) {
+      load_local(reader, fmt::format("body{}_{}", k, name), body, field, components);
     });
     monitors_[k]->load(reader, fmt::format("body{}_step_limit", k));
     std::array<double, 2> energy_totals{};
