@@ -37,7 +37,7 @@ struct Halo {
   /// rank.
   template <class... Ref>
   void refresh(Ref const&... fields) const {
-    if (plan != nullptr) piola::exchange(*plan, std::array{fields...});
+    if (plan != nullptr) piola::exchange(*plan, std::array<FieldRef, sizeof...(Ref)>{fields...});
     (update(fields), ...);
   }
 

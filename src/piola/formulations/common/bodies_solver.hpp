@@ -28,8 +28,8 @@ namespace piola {
 /// One or more bodies of one formulation that do not touch each other, distributed over ranks by slots: what does not
 /// depend on the scheme. Derived solvers make the bodies, take the steps, and add their own state to checkpoints.
 ///
-/// A Body owns its fields. Its namespace has observe(), finish(), sample_on_root(), sample_local_slots() and
-/// each_evolved(). A Monitor measures the step limit of one body.
+/// A Body owns its fields and visits the evolved ones: each_evolved(). Its namespace has observe(), finish(),
+/// sample_on_root() and sample_local_slots(). A Monitor measures the step limit of one body.
 template <class Body, class Monitor>
 class BodiesSolver : public Formulation, public Observables, public CoupledParticles {
  public:
@@ -111,13 +111,13 @@ class BodiesSolver : public Formulation, public Observables, public CoupledParti
   /// The evolved fields of a body in checkpoints. Collective.
   void save_fields(StateWriter& writer, std::size_t body) const {
     Body const& from = *bodies_[body];
-    each_evolved(from, [&](std::string_view name, FieldRef const& field, int components) {
+    from.each_evolved([&](std::string_view name, FieldRef const& field, int components) {
       save_local(writer, fmt::format("body{}_{}", body, name), from, field, components);
     });
   }
   void load_fields(StateReader& reader, std::size_t body) {
     Body const& to = *bodies_[body];
-    each_evolved(to, [&](std::string_view name, FieldRef const& field, int components) {
+    to.each_evolved([&](std::string_view name, FieldRef const& field, int components) {
       load_local(reader, fmt::format("body{}_{}", body, name), to, field, components);
     });
   }

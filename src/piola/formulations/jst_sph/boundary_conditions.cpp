@@ -41,7 +41,7 @@ Boundary::Boundary(Assembly const& assembly, std::size_t body, SlotOrder const& 
   for (std::size_t k = 0; k < plain_of_all_; ++k) plain_owner_[k].number = k;
 }
 
-void Boundary::share(Range own) {
+void Boundary::distribute(Range own) {
   own_ = own;
   driven_.keep(own);
   std::vector<SupportComponent> mine;

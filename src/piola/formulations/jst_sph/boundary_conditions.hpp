@@ -30,7 +30,7 @@ class Boundary {
   /// Multiplies the velocities of the body by `factor`, except along the directions held in the last step.
   void damp(BodyState& state, double factor) const { driven_.damp(state.v, state.slots.last, factor); }
   /// Sets the local slots of a distributed body. Call before attach().
-  void share(Range own);
+  void distribute(Range own);
   /// Adds the impulses of supports and loads in the last step. Collective if the body is distributed.
   void add_resultants_to(Resultants& actions) const;
   void reset_impulses() { driven_.reset_impulses(); }

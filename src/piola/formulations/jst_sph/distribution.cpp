@@ -5,7 +5,7 @@
 #include "piola/domain/slot_collectives.hpp"
 #include "piola/formulations/jst_sph/body.hpp"
 #include <algorithm>
-#include <set>
+#include <utility>
 
 namespace piola::jst_sph {
 
@@ -13,19 +13,20 @@ Range JstBody::own() const {
   return {std::min(state_.slots.first, order_.particles), std::min(state_.slots.last, order_.particles)};
 }
 
-void JstBody::share(int lanes) {
+/// Assigns this rank its range of slots: later set-up covers these alone. Collective.
+void JstBody::distribute(int lanes) {
   if (!comm::is_parallel()) return;
   state_.slots = even_range_of_rank(order_.slots(), comm::rank(), comm::size());
-  halo_ = std::make_unique<HaloPlan>(order_.slots(), slots_read(lanes, false));
-  halo_->add_cutoff(slots_read(lanes, true));
-  state_.halo = halo_.get();
-  lines_ = std::make_unique<LatticeLineHalo>(*set_, body_, order_, own());
-  boundary_.share(state_.slots);
+  HaloPlan ghosts(order_.slots(), slots_of_neighbours(lanes, false));
+  ghosts.add_cutoff(slots_of_neighbours(lanes, true));
+  halo_ = std::make_unique<BodyHalo>(std::move(ghosts), *set_, body_, order_, own());
+  state_.halo = &halo_->plan;
+  boundary_.distribute(state_.slots);
 }
 
 /// The neighbours of local particles, with images replaced by their sources. Within the gradient's support or, if
 /// `far`, within the Laplacian's, which contains it.
-std::vector<Index> JstBody::slots_read(int lanes, bool far) const {
+std::vector<Index> JstBody::slots_of_neighbours(int lanes, bool far) const {
   std::vector<bool> seen(static_cast<std::size_t>(order_.slots()));
   auto const add = [&](Index slot) { seen[static_cast<std::size_t>(slot)] = true; };
   for (Index i = own().first; i < own().last; ++i) {
@@ -50,33 +51,6 @@ std::vector<Index> JstBody::slots_read(int lanes, bool far) const {
   for (Index i = 0; i < order_.particles; ++i)
     if (seen[static_cast<std::size_t>(i)] && (i < own().first || i >= own().last)) read.push_back(i);
   return read;
-}
-
-/// Ghost data of the sweeps, field by field in the layout of place_gathered(), by message; alpha and beta are constant.
-/// Gradients read near neighbours alone; Laplacians and the filter also far ones.
-std::vector<std::vector<JstBody::HaloField>> JstBody::halo_fields() const {
-  auto const& s = state_;
-  bool const smoothed_J = options_.smoothed_volume();
-  int const smoothed = stabilised() ? D_ + (smoothed_J ? 1 : 0) : 0;
-  int const before_A = options_.biharmonic == Biharmonic::adjoint ? smoothed + D_ + 1 : smoothed;
-  int const beside_u = gathers_position() ? D_ : smoothed_J ? 1 : 0;
-  std::vector<std::vector<HaloField>> messages{
-      {{s.u, 0, D_ + beside_u, stabilised()}},
-      {{s.second, 0, smoothed, true}, {s.second, before_A, D_ * D_, false}},
-  };
-  // Passes of the filter and of its adjoint read one buffer and write the other.
-  for (int pass = 0; pass < 2 * filter_passes; ++pass) messages.push_back({{s.filter_source[pass % 2], 0, 1, true}});
-  for (auto& parts : messages)
-    std::erase_if(parts, [](HaloField const& t) { return t.field.data == nullptr || t.count == 0; });
-  std::erase_if(messages, [](auto const& parts) { return parts.empty(); });
-  return messages;
-}
-
-void JstBody::mark_halo() {
-  std::set<std::pair<double const*, int>> marked;
-  for (auto const& parts : halo_fields())
-    for (HaloField const& t : parts)
-      if (marked.emplace(t.field.data, t.first).second) halo_->add(t.field, t.first, t.count, t.far ? 1 : 0);
 }
 
 }  // namespace piola::jst_sph

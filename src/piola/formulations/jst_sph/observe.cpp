@@ -64,7 +64,7 @@ double volume_mismatch(JstBody const& body, double J, Index i) {
 
 void observe(JstBody const& body, JstObservation& o) {
   auto& d = o.totals;
-  LatticeLineHalo* const lines = body.lines();
+  LatticeLineHalo* const lines = body.lattice_line_halo();
   std::vector<double> pressure(lines != nullptr ? 0 : static_cast<std::size_t>(body.particles()));
   exec::ReproducibleSums<1> strain;
   o.begin_body(body.body().name);

@@ -11,26 +11,6 @@
 #include <limits>
 
 namespace piola::jst_sph {
-
-/// Calls f(name, field, components) for the evolved state of a body, i.e. the content of a checkpoint.
-template <class F>
-void each_evolved(JstBody const& body, F const& f) {
-  auto const& s = body.state();
-  int const D = s.dimension;
-  f("position", s.x, D);
-  f("velocity", s.v, D);
-  f("deformation_gradient", s.F, D * D);
-  f("wave_speed", s.wave_speed, 1);
-  bool const area = s.constants.variables == Variables::pFHJ, volume = evolves_volume(s.constants.variables);
-  if (area) f("area_map", s.H, 9);
-  if (volume) f("volume_ratio", s.J, 1);
-  if (s.constants.integrator == Integrator::verlet) f("acceleration", s.rate, D);
-  if (s.constants.kappa_filtered > 0) {
-    f("filtered_ratio", s.filtered_ratio, 1);
-    f("filtered_pressure", s.filtered_pressure, 1);
-  }
-}
-
 namespace {
 
 /// JST-SPH of one or more bodies that do not touch each other.
@@ -131,7 +111,7 @@ class Solver final : public BodiesSolver<JstBody, StabilityMonitor> {
   FailureSlot failed_particle(std::size_t body) const override;
   void describe(std::size_t body, FailureSlot const& slot, Failure& failure) const override;
   void replicate(JstBody& body, Index slot) const override {
-    each_evolved(body, [&](std::string_view, FieldRef const& field, int components) {
+    body.each_evolved([&](std::string_view, FieldRef const& field, int components) {
       allgather_selected_slots(field, body.own(), std::array{slot}, components);
     });
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/exec/device_loops.hpp"
-#include "piola/exec/field.hpp"
+#include "piola/formulations/jst_sph/fields.hpp"
 #include "piola/materials/registry.hpp"
 #include "piola/mechanics/prescribed_data.hpp"
 #include "piola/neighbours/pair_table_views.hpp"
@@ -93,32 +93,17 @@ struct StepTotals {
   double damping_loss = 0;        ///< J, energy removed by damping
 };
 
-struct BodyState {
-  int dimension = 3;
-  Range slots;
+struct BodyState : Fields {
+  using Fields::Fields;
+  Range slots;  ///< slots that loops work on: the local ones
   Constants constants{};
   MaterialParameters material;
   bool regular = false;  ///< stencil table, else list table
   StencilTable stencil;
   ListTable list;
-
-  // Reference: tributary volume, in the operators with mirror planes that of the continued body; weight of sums over
-  // the body itself; corrections (pair_table_views.hpp).
-  FieldRef V, weight, C, G, alpha, beta, diagonal;
-  // Evolved. `v` is p / rho0. For the mixed variables `u` is v itself; for displacement it is the stage's position.
-  FieldRef x, v, F, wave_speed;
-  FieldRef H, J;  ///< {p,F,H,J}; {p,F,J} and {p,F,H,J}
-  // Derived: neighbour data of the two sweeps.
-  FieldRef u;
-  FieldRef second;  ///< neighbour data of the second sweep: w, then for the adjoint form alpha and beta, then A
-  FieldRef w;       ///< part of `second`: argument of the second Laplacian
-  FieldRef A;       ///< part of `second`: (V / V_kernel) P C [Pa]
-  // Filtered volumetric energy: volume ratio, its filtered form, pressure of the filtered part; Sinkhorn scaling d, sum
-  // of the filter's weights without the diagonal; two buffers of d V f for neighbours.
-  FieldRef volume_ratio, filtered_ratio, filtered_pressure, filter_scale, filter_sum, filter_source[2];
-  // Within a step.
-  FieldRef v_n, F_star, wave_speed_next, rate;
-  FieldRef H_star, J_n, J_next, J_rate;
+  /// Neighbour data of the sweeps, see NeighbourRecords. For the mixed variables `u` is v itself; for displacement it
+  /// is the position of the stage.
+  FieldRef u, second;
 
   SupportComponent* supports = nullptr;
   Index support_count = 0;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/domain/halo_plan.hpp"
 #include "piola/formulations/assembly.hpp"
-#include "piola/formulations/common/lattice_line_halo.hpp"
+#include "piola/formulations/common/body_halo.hpp"
 #include "piola/formulations/formulation.hpp"
+#include "piola/formulations/nodal/body_materials.hpp"
 #include "piola/formulations/nodal/boundary_conditions.hpp"
-#include "piola/formulations/nodal/fields.hpp"
 #include "piola/formulations/nodal/neighbour_records.hpp"
 #include "piola/formulations/nodal/options.hpp"
 #include "piola/formulations/nodal/set_up.hpp"
@@ -40,30 +39,35 @@ class NodalBody {
   std::int64_t id(Index slot) const { return order_.id[static_cast<std::size_t>(slot)]; }
   Reference const& reference() const { return reference_; }
   bool shared() const { return halo_ != nullptr; }
-  /// Communication pattern of the body while strains change slowly.
   /// Slots of the local particles: all on one rank.
   Range own() const;
   /// Lattice lines for observers if the body is distributed; else nullptr.
-  LatticeLineHalo* lines() const { return lines_.get(); }
+  LatticeLineHalo* lattice_line_halo() const { return halo_ ? &halo_->lines : nullptr; }
+  MirrorImages const& images() const { return images_; }
   /// Created on first use. Collective.
   Smoothing const& smoothing() const;
   std::size_t bytes() const;
+  /// Calls f(name, field, components) for the evolved state, i.e. the fields of a checkpoint.
+  template <class F>
+  void each_evolved(F const& f) const {
+    fields_.each_evolved(f);
+  }
 
   /// Advances from `time` to time + dt, with supports and loads. If a cell is inverted, repeats the step in two halves,
-  /// up to a few times; the failure remains if that does not help. Returns the number of halvings.
-  int step(Backend const& backend, double time, double dt);
+  /// up to a few times; the failure remains if that does not help. Returns the number of halvings. `halvings`: of the
+  /// whole step before this part of it.
+  int step(Backend const& backend, double time, double dt, int halvings = 0);
   /// Multiplies the velocities that no support prescribes; the lost kinetic energy is added to damping_loss().
   void damp(double factor);
   /// Largest change of a strain at the last step since the last measurement of the step limit.
   double largest_change() const { return largest_change_; }
-  double kinetic_energy() const;                               ///< over all ranks [J]; collective
-  double kinetic_energy_of(Index slot) const;                  ///< [J]
-  double strain_energy() const;                                ///< over all ranks, of the state for observers [J];
-                                                               ///< collective
-  double damping_loss() const { return damping_loss_; }        ///< since the start [J]
-  double viscous_loss() const;                                 ///< over all ranks, since the start [J]; collective
-  bool stores_history() const { return fields_.with_solids; }  ///< whether it has solids in rate form
-  bool viscous() const { return fields_.with_viscosity; }
+  double kinetic_energy() const;                             ///< over all ranks [J]; collective
+  double kinetic_energy_of(Index slot) const;                ///< [J]
+  double strain_energy() const;                              ///< of the state for observers, over all ranks [J];
+                                                             ///< collective
+  double damping_loss() const { return damping_loss_; }      ///< since the start [J]
+  double viscous_loss() const;                               ///< over all ranks, since the start [J]; collective
+  bool stores_history() const { return state_.has.solids; }  ///< whether it has solids in rate form
   /// Mean over the points of a cell of one number of their histories (HistoryLayout); 0 for bodies without solids in
   /// rate form.
   double mean_of_points(Index slot, int number) const;
@@ -76,65 +80,45 @@ class NodalBody {
 
   std::array<double, 3> X(Index slot) const { return set_->X[static_cast<std::size_t>(id(slot))]; }
   std::array<double, 3> x(Index slot) const {
-    return D_ < 3 ? point_at(state_.x, slot, D_, X(slot)) : point_at(state_.x, slot, 3);
+    int const D = state_.dimension;
+    return D < 3 ? point_at(state_.x, slot, D, X(slot)) : point_at(state_.x, slot, 3);
   }
-  std::array<double, 3> v(Index slot) const { return point_at(state_.v, slot, D_); }
+  std::array<double, 3> v(Index slot) const { return point_at(state_.v, slot, state_.dimension); }
   Mat<3> F(Index slot) const;  ///< at the centroid of the cell; missing directions: mean over its points
-  MaterialRange const& material(Index slot) const;
-  double mass(Index slot) const { return share(slot) * value(state_.mass, slot); }
+  MaterialRange const& material(Index slot) const { return materials_.of(slot); }
+  double mass(Index slot) const { return reference_.own_fraction(slot) * value(state_.mass, slot); }
   /// Mass of any particle [kg]. On all ranks if surface contact acts on the body.
-  double known_mass(Index slot) const { return reference_.mass[static_cast<std::size_t>(slot)]; }
-  double volume(Index slot) const { return share(slot) * value(state_.V, slot); }
+  double replicated_mass(Index slot) const { return reference_.mass[static_cast<std::size_t>(slot)]; }
+  double volume(Index slot) const { return reference_.own_fraction(slot) * value(state_.V, slot); }
   static double value(FieldRef const& f, Index slot, int c = 0) { return value_at(f, slot, c); }
 
  private:
-  /// Fraction of a particle's volume that belongs to the body itself, on this side of its mirror planes.
-  double share(Index slot) const {
-    return reference_.share.empty() ? 1 : reference_.share[static_cast<std::size_t>(slot)];
-  }
-  void set_up(Assembly const& assembly, Backend const& backend);
-  MirrorImages make_images(Assembly const& assembly, std::size_t body) const;
-  void attach_images();
-  void keep_own_side();
-  int step(Backend const& backend, double time, double dt, int halvings);
-  void set_materials(std::vector<MaterialParameters> const& materials);
-  void set_viscosity(MaterialParameters const& material);
-  std::vector<double> densities() const;
+  void make_reference(Assembly const& assembly, Backend const& backend);
+  void distribute();
   void allocate();
-  void fill_reference();
-  void fill_initial(Assembly const& assembly);
-  void fill_offset(Assembly const& assembly, Backend const& backend);
-  void fill_histories();
+  void fill(Assembly const& assembly, Backend const& backend);
   void make_boundary(Assembly const& assembly, std::size_t body);
   void agree_on_step(double change);
-  void share();
-  void mark_halo();
-  /// Calls f(slot) for local particles, ghosts and images.
-  template <class Visit>
-  void each_seen(Visit const& f) const;
   bool failed() const { return failure_.index < order_.particles; }
-  std::vector<Index> slots_read() const;
 
   Body body_;
   Options options_;
-  int D_;
+  ParticleSet const* set_;
   SlotOrder order_;
   MirrorImages images_;
   std::vector<MirroredParticle> mirrored_;  ///< on planes
-  ParticleSet const* set_;
-  Fields fields_;
-  NeighbourRecords gathered_;
+  BodyMaterials materials_;
+  FieldList fields_;
+  BodyState state_;
+  NeighbourRecords records_;
   Reference reference_;
   mutable std::optional<Smoothing> smoothing_;
   std::optional<Boundary> boundary_;
-  std::vector<MaterialRange> materials_;  ///< of the body and of its parts
   std::vector<double> partial_;
   double damping_loss_ = 0, largest_change_ = 0;
   bool observed_ = false;
   FailureSlot failure_;
-  BodyState state_;
-  std::unique_ptr<HaloPlan> halo_;  ///< nullptr on one rank
-  std::unique_ptr<LatticeLineHalo> lines_;
+  std::unique_ptr<BodyHalo> halo_;  ///< nullptr on one rank
 };
 
 }  // namespace piola::nodal

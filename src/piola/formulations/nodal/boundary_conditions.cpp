@@ -40,7 +40,7 @@ Boundary::Boundary(Assembly const& assembly, std::size_t body, BodyInput const& 
 }
 
 /// Supports that hold the surface are solved for on every rank, including all held particles near it.
-void Boundary::share(Range own) {
+void Boundary::distribute(Range own) {
   if (surface_.empty())
     driven_.keep(own);
   else
@@ -79,7 +79,7 @@ void Boundary::take_loads(Assembly const& assembly, BodyInput const& of_body, st
                                 load.pressure ? std::optional(of_body.parts[number][slot].normal) : std::nullopt});
     }
   }
-  if (own_) share(*own_);
+  if (own_) distribute(*own_);
   double follows = driven_.follows() ? 1 : 0;  // ranks turn loads together
   if (own_) comm::allreduce_max(follows);
   follows_ = follows > 0;

@@ -61,7 +61,7 @@ class Boundary {
 
  private:
   void take_loads(Assembly const& assembly, BodyInput const& of_body, std::vector<Index> const& slot_of);
-  void share(Range own);
+  void distribute(Range own);
   LazyZeroArray<double> factors(Load const& load, std::size_t number, BodyInput const& of_body,
                                 std::vector<Index> const& slot_of) const;
 

@@ -3,39 +3,35 @@
 // updated by messages. Slots of particles are numbered alike on all ranks, so the rest of the body is unchanged.
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/nodal/body.hpp"
-#include "piola/formulations/nodal/halo_fields.hpp"
 #include <algorithm>
+#include <utility>
 
 namespace piola::nodal {
+namespace {
+
+/// The neighbours of the particles in these slots, with images replaced by their sources. Equal for sums over a
+/// lattice.
+std::vector<Index> slots_of_neighbours(Reference const& reference, Range of) {
+  std::vector<Index> read;
+  for (auto i = static_cast<std::size_t>(of.first); i < static_cast<std::size_t>(of.last); ++i)
+    for (auto k = reference.begin[i]; k < reference.begin[i + 1]; ++k)
+      read.push_back(reference.owner(reference.neighbour[static_cast<std::size_t>(k)]));
+  return read;
+}
+
+}  // namespace
 
 Range NodalBody::own() const {
   return {std::min(state_.slots.first, order_.particles), std::min(state_.slots.last, order_.particles)};
 }
 
-void NodalBody::share() {
+/// Collective.
+void NodalBody::distribute() {
   if (!comm::is_parallel()) return;
-  halo_ = std::move(reference_.halo);
-  if (!halo_) halo_ = std::make_unique<HaloPlan>(order_.slots(), slots_read());
-  lines_ = std::make_unique<LatticeLineHalo>(*set_, body_, order_, own());
-}
-
-void NodalBody::mark_halo() {
-  state_.halo = halo_.get();
-  state_.ghosts = halo_->received().data();
-  state_.ghost_count = static_cast<Index>(halo_->received().size());
-  with_dimension(D_, [&](auto dimension) { add_halo_fields<dimension>(*halo_, state_); });
-}
-
-/// The neighbours of local particles, with images replaced by their sources. Equal for sums over a lattice.
-std::vector<Index> NodalBody::slots_read() const {
-  std::vector<Index> read;
-  for (Index i = own().first; i < own().last; ++i)
-    for (auto k = reference_.begin[static_cast<std::size_t>(i)]; k < reference_.begin[static_cast<std::size_t>(i) + 1];
-         ++k) {
-      Index const b = reference_.neighbour[static_cast<std::size_t>(k)];
-      read.push_back(b < order_.slots() ? b : images_.particles().source[static_cast<std::size_t>(b - order_.slots())]);
-    }
-  return read;
+  HaloPlan ghosts =
+      reference_.halo ? std::move(*reference_.halo) : HaloPlan(order_.slots(), slots_of_neighbours(reference_, own()));
+  reference_.halo.reset();
+  halo_ = std::make_unique<BodyHalo>(std::move(ghosts), *set_, body_, order_, own());
 }
 
 }  // namespace piola::nodal

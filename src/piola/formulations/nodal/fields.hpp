@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/field.hpp"
-#include "piola/formulations/nodal/quadratic.hpp"
-#include "piola/formulations/nodal/state.hpp"
+#include "piola/formulations/common/field_list.hpp"
 #include <type_traits>
 
 namespace piola::nodal {
@@ -15,51 +13,87 @@ auto with_dimension(int D, F const& f) {
   return f(std::integral_constant<int, 3>{});
 }
 
-/// The one list of particle fields of the nodal formulation, for a body of dimension D; sizes as in quadratic.hpp.
-struct Fields : FieldSet {
-  /// Numbers of second derivatives, of terms of a quadratic without the constant and with it.
-  static int second(int D) { return D * (D + 1) / 2; }
-  static int terms(int D) { return D + second(D); }
-  static int values(int D) { return 1 + terms(D); }
+/// Layout of the field `history` of solids in rate form, at the end of the last step.
+struct HistoryLayout {
+  /// Values of the cell: pressure, positive in compression [Pa]; specific internal energy [J/kg].
+  enum : int { pressure, energy, of_cell };
+  /// Values of a point, relative to point(q, D).
+  enum : int {
+    S,                   ///< deviatoric Cauchy stress [Pa], 6 values
+    plastic_strain = 6,  ///< equivalent plastic strain
+    temperature,         ///< [K]
+    damage,              ///< 0 to 1
+    plastic_work,        ///< per reference volume [J/m^3]
+    spread,              ///< tension over that of the cell [Pa]
+    F                    ///< deformation gradient, D x D values
+  };
+
+  static constexpr int point(int q, int D) { return of_cell + q * (F + D * D); }
+};
+
+/// Conditions under which a body has fields beyond those of the elastic motion.
+struct FieldNeeds {
+  bool viscosity = false;
+  bool solids = false;  ///< some cell has a solid in rate form
+  bool offset = false;  ///< F starts from given values
+};
+
+/// The one list of particle fields of the nodal formulation, and what loops get of them. Memory and checkpoints follow
+/// from it. Numbers of components as in quadratic.hpp.
+struct Fields {
+  /// Numbers of second derivatives, of terms of a quadratic without the constant and with it, of points of a cell.
+  static constexpr int second(int D) { return D * (D + 1) / 2; }
+  static constexpr int terms(int D) { return D + second(D); }
+  static constexpr int values(int D) { return 1 + terms(D); }
+  static constexpr int points(int D) { return D == 3 ? 4 : 1 << D; }
   /// Strain and viscous stress at every point, and three values of the cell.
-  static int viscous_values(int D) { return 2 * points(D) * second(D) + 3; }
+  static constexpr int viscous_values(int D) { return 2 * points(D) * second(D) + 3; }
+  static constexpr int solid_values(int D) { return HistoryLayout::point(points(D), D); }
+  /// Condition of fields whose memory, if any, is that of NeighbourRecords.
+  static constexpr bool in_records = false;
 
-  static int points(int D) { return D == 3 ? 4 : 1 << D; }
-  static int solid_values(int D) { return HistoryLayout::point(points(D), D); }
+  /// of: owner of the memory; nullptr: none.
+  explicit Fields(FieldList* of = nullptr, int D = 3, FieldNeeds const& needs = {})
+      : owner(of), dimension(D), has(needs) {}
+  FieldList* owner;
+  int dimension;
+  FieldNeeds has;
 
-  /// `has_solids`: some cell has a solid in rate form. `has_offset`: F starts from given values.
-  explicit Fields(int D, bool has_viscosity = false, bool has_solids = false, bool has_offset = false)
-      : D_(D), with_viscosity(has_viscosity), with_solids(has_solids), with_offset(has_offset) {}
-  int const D_;
-  bool const with_viscosity, with_solids, with_offset;
+  // Reference: volume of the cell; mass; Cholesky factor of the cell's spread times the parity (columns of L: D x D);
+  // matrices from sums to derivatives: g (values x D) for F, k (terms x second) for H; sums of s P and of s mu;
+  // corrections of the gradients; offset of F over the gradient of positions, from the start.
+  ListedRef V{owner, "CellVolume", "m3", 1, Role::reference};
+  ListedRef mass{owner, "Mass", "kg", 1, Role::reference};
+  ListedRef L{owner, "CellSpread", "m", dimension* dimension, Role::reference};
+  ListedRef g{owner, "GradientOfSums", "1/m", values(dimension) * dimension, Role::reference};
+  ListedRef k{owner, "SecondDerivativeOfSums", "1/m2", terms(dimension) * second(dimension), Role::reference};
+  ListedRef own{owner, "SumsOfWeights", "1", values(dimension) + dimension, Role::reference};
+  ListedRef X{owner, "ReferencePositionInSpacings", "1", dimension, Role::reference, in_records};
+  ListedRef mu{owner, "GradientCorrection", "1/m", dimension, Role::reference};
+  ListedRef offset{owner, "GradientOffset", "1", dimension* dimension, Role::reference, has.offset};
 
-  ListedField V{*this, "CellVolume", "m3", 1, Role::reference};
-  ListedField mass{*this, "Mass", "kg", 1, Role::reference};
-  ListedField L{*this, "CellSpread", "m", D_* D_, Role::reference};
-  ListedField g{*this, "GradientOfSums", "1/m", values(D_) * D_, Role::reference};
-  ListedField k{*this, "SecondDerivativeOfSums", "1/m2", terms(D_) * second(D_), Role::reference};
-  ListedField own{*this, "SumsOfWeights", "1", values(D_) + D_, Role::reference};
-  ListedField X{*this, "ReferencePositionInSpacings", "1", D_, Role::reference};
-  ListedField x{*this, "Position", "m", D_, Role::evolved};
-  ListedField v{*this, "Velocity", "m/s", D_, Role::evolved};
-  ListedField a{*this, "Acceleration", "m/s2", D_, Role::evolved};
-  ListedField mu{*this, "GradientCorrection", "1/m", D_, Role::reference};
-  ListedField products{*this, "CorrectedPosition", "1", D_* D_, Role::derived};
-  ListedField stress{*this, "StressOfSums", "N/m", values(D_) * D_ + D_* D_, Role::derived};
-  ListedField F{*this, "DeformationGradient", "1", D_* D_, Role::derived};
-  ListedField P{*this, "FirstPiolaStress", "Pa", 9, Role::derived};
-  ListedField cell{*this, "CellState", "1", 4, Role::derived};
-  ListedField C_measured{*this, "StretchOfLastMeasurement", "1", D_*(D_ + 1) / 2, Role::evolved};
-  ListedField change{*this, "ChangeSinceMeasurement", "1", 2, Role::derived};
-  ListedField kept{*this, "MotionAtStepStart", "1", 3 * D_ + 1, Role::derived};
-  // Allocated only with an initial deformation gradient:
-  ListedField offset{*this, "GradientOffset", "1", D_* D_, Role::reference};
-  // Allocated only with viscosity:
-  ListedField viscous{*this, "ViscousHistory", "1", viscous_values(D_), Role::evolved};
-  ListedField viscous_kept{*this, "ViscousHistoryAtStepStart", "1", viscous_values(D_), Role::derived};
-  // Allocated only with solids in rate form:
-  ListedField history{*this, "SolidHistory", "1", solid_values(D_), Role::evolved};
-  ListedField history_kept{*this, "SolidHistoryAtStepStart", "1", solid_values(D_), Role::derived};
+  // Evolved: position, velocity; acceleration by all forces at x; F^T F at the last measurement of the step; largest
+  // change of a strain since, least J now; see HistoryLayout, ViscousHistory.
+  ListedRef x{owner, "Position", "m", dimension, Role::evolved};
+  ListedRef v{owner, "Velocity", "m/s", dimension, Role::evolved};
+  ListedRef a{owner, "Acceleration", "m/s2", dimension, Role::evolved};
+  ListedRef C_measured{owner, "MeasuredStretch", "1", second(dimension), Role::evolved};
+  ListedRef change{owner, "Change", "1", 2, Role::evolved};
+  ListedRef history{owner, "SolidHistory", "1", solid_values(dimension), Role::evolved, has.solids};
+  ListedRef viscous{owner, "ViscousHistory", "1", viscous_values(dimension), Role::evolved, has.viscosity};
+
+  // Derived: of a lattice x_c mu_J; rows (Y_i, Z_i).
+  ListedRef products{owner, "CorrectedPosition", "1", dimension* dimension, Role::derived, in_records};
+  ListedRef stress{owner, "StressOfSums", "N/m", values(dimension) * dimension + dimension* dimension, Role::derived};
+  // For observers: gradient at the centroid; mean stress, three-dimensional; energy per volume, mean J, least J.
+  ListedRef F{owner, "DeformationGradient", "1", dimension* dimension, Role::derived};
+  ListedRef P{owner, "FirstPiolaStress", "Pa", 9, Role::derived};
+  ListedRef cell{owner, "CellState", "1", 4, Role::derived};
+  // At the start of the step: x, v, a and the least J; histories.
+  ListedRef kept{owner, "MotionAtStepStart", "1", 3 * dimension + 1, Role::derived};
+  ListedRef history_kept{owner, "SolidHistoryAtStepStart", "1", solid_values(dimension), Role::derived, has.solids};
+  ListedRef viscous_kept{owner,        "ViscousHistoryAtStepStart", "1", viscous_values(dimension), Role::derived,
+                         has.viscosity};
 };
 
 }  // namespace piola::nodal

@@ -17,14 +17,15 @@ RecordSizes record_sizes(int D) {
 
 }  // namespace
 
-void NeighbourRecords::place_records(Fields& fields, int D, Index slots) {
-  RecordSizes const size = record_sizes(D);
+void NeighbourRecords::place_records(FieldList& fields, BodyState const& state, Index slots) {
+  RecordSizes const size = record_sizes(state.dimension);
+  std::ptrdiff_t const D = state.dimension;
   first_ = Memory(static_cast<std::size_t>(slots * size.motion));
   second_ = Memory(static_cast<std::size_t>(slots * size.stress));
-  fields.X.place(first_.data(), 1, size.motion, 0, slots, &first_version_);
-  fields.x.place(first_.data(), 1, size.motion, D, slots, &first_version_);
-  fields.mu.place(first_.data(), 1, size.motion, std::ptrdiff_t{2} * D, slots, &first_version_);
-  fields.stress.place(second_.data(), 1, size.stress, 0, slots, &second_version_);
+  fields[state.X].place(first_.data(), 1, size.motion, 0, slots, &first_version_);
+  fields[state.x].place(first_.data(), 1, size.motion, D, slots, &first_version_);
+  fields[state.mu].place(first_.data(), 1, size.motion, 2 * D, slots, &first_version_);
+  fields[state.stress].place(second_.data(), 1, size.stress, 0, slots, &second_version_);
 }
 
 void NeighbourRecords::complete_record(int D, Index slot) {
@@ -32,10 +33,8 @@ void NeighbourRecords::complete_record(int D, Index slot) {
   first_.data()[slot * size.motion + size.one] = 1;
 }
 
-void NeighbourRecords::place_lattice(Fields& fields, Index slots, Index guard) {
-  fields.x.allocate(slots, guard);
-  fields.products.allocate(slots, guard);
-  fields.stress.allocate(slots, guard);
+void NeighbourRecords::place_lattice(FieldList& fields, BodyState const& state, Index slots, Index guard) {
+  for (FieldRef const* field : {&state.x, &state.products, &state.stress}) fields[*field].allocate(slots, guard);
 }
 
 }  // namespace piola::nodal

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/nodal/fields.hpp"
+#include "piola/formulations/nodal/state.hpp"
 
 namespace piola::nodal {
 
@@ -13,10 +13,10 @@ class NeighbourRecords {
   NeighbourRecords& operator=(NeighbourRecords const&) = delete;
 
   /// Call complete_record() afterwards for all records that are read.
-  void place_records(Fields& fields, int D, Index slots);
+  void place_records(FieldList& fields, BodyState const& state, Index slots);
   void complete_record(int D, Index slot);
   /// guard: slots that loops over a lattice may read before the first and after the last one.
-  static void place_lattice(Fields& fields, Index slots, Index guard);
+  static void place_lattice(FieldList& fields, BodyState const& state, Index slots, Index guard);
   std::size_t bytes() const { return first_.bytes() + second_.bytes(); }
 
  private:

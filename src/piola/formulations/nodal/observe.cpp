@@ -49,7 +49,7 @@ LazyZeroArray<double> cell_pressures(NodalBody const& body) {
 }
 
 void add_oscillation(NodalBody const& body, LazyZeroArray<double> const& by_slot, DiagnosticsSum& o) {
-  LatticeLineHalo* const lines = body.lines();
+  LatticeLineHalo* const lines = body.lattice_line_halo();
   std::vector<double> by_id(lines != nullptr ? 0 : static_cast<std::size_t>(body.particles()));
   for (Index i = body.own().first; i < body.own().last; ++i)
     (lines != nullptr ? lines->pressure(i) : by_id[static_cast<std::size_t>(body.id(i) - body.body().first)]) =
@@ -202,27 +202,28 @@ double NodalBody::strain_energy() const {
 }
 
 double NodalBody::viscous_loss() const {
-  if (!fields_.with_viscosity) return 0;
-  int const loss = Fields::viscous_values(D_) - 1;
+  if (!state_.has.viscosity) return 0;
+  int const loss = Fields::viscous_values(state_.dimension) - 1;
   return sum_over_slots(shared(), own(), [&](Index i) { return volume(i) * value(state_.viscous, i, loss); });
 }
 
 double NodalBody::mean_of_points(Index slot, int number) const {
-  int const points = fields_.with_solids ? Fields::points(D_) : 0;
+  int const D = state_.dimension, points = state_.has.solids ? Fields::points(D) : 0;
   double sum = 0;
-  for (int q = 0; q < points; ++q) sum += value(state_.history, slot, HistoryLayout::point(q, D_) + number) / points;
+  for (int q = 0; q < points; ++q) sum += value(state_.history, slot, HistoryLayout::point(q, D) + number) / points;
   return sum;
 }
 
 Mat<3> NodalBody::F(Index slot) const {
   Mat<3> r = identity<3>();
-  for (int c = 0; c < D_ * D_; ++c) r(c / D_, c % D_) = value(state_.F, slot, c);
-  for (int c = D_; c < 3; ++c) r(c, c) = value(state_.cell, slot, 3);
+  int const D = state_.dimension;
+  for (int c = 0; c < D * D; ++c) r(c / D, c % D) = value(state_.F, slot, c);
+  for (int c = D; c < 3; ++c) r(c, c) = value(state_.cell, slot, 3);
   return r;
 }
 
 Smoothing const& NodalBody::smoothing() const {
-  if (!smoothing_) smoothing_.emplace(reference_, D_, own(), halo_.get());
+  if (!smoothing_) smoothing_.emplace(reference_, state_.dimension, own(), halo_ ? &halo_->plan : nullptr);
   return *smoothing_;
 }
 

@@ -5,7 +5,6 @@
 #include "piola/formulations/nodal/halo_fields.hpp"
 #include "piola/math/solve.hpp"
 #include <algorithm>
-#include <initializer_list>
 
 namespace piola::nodal {
 namespace {
@@ -28,7 +27,7 @@ ProjectionMatrix<D>::ProjectionMatrix(LocalFits<D> const& fits, LazyZeroArray<Sc
       weights_("OwnWeights", "1", 2, Role::reference),
       coefficients_(std::make_unique<Field>("LeastSquaresQuadratic", "1", values * D, Role::derived)) {
   allocate(lattice);
-  if (halo != nullptr) share(*halo);
+  if (halo != nullptr) distribute(*halo);
   fill(fits, cells);
   auto const& pairs = fits.pairs();
   begin_ = LazyZeroArray<std::int64_t>(static_cast<std::size_t>(slots_) + 1);
@@ -46,7 +45,7 @@ void ProjectionMatrix<D>::for_each_local(F const& f) const {
 }
 
 template <int D>
-void ProjectionMatrix<D>::share(HaloPlan const& halo) {
+void ProjectionMatrix<D>::distribute(HaloPlan const& halo) {
   state_.slots = even_range_of_rank(slots_, comm::rank(), comm::size());
   if (state_.first.data == nullptr) state_.first = weights_.ref();  // neither sent nor read at neighbours
   halo_ = halo;
@@ -56,44 +55,40 @@ void ProjectionMatrix<D>::share(HaloPlan const& halo) {
 
 template <int D>
 void ProjectionMatrix<D>::allocate(LatticeLayout const* lattice) {
-  auto& f = fields_;
+  auto& s = state_;
   if (lattice != nullptr)
-    NeighbourRecords::place_lattice(f, slots_, lattice->guard());
+    NeighbourRecords::place_lattice(fields_, s, slots_, lattice->guard());
   else
-    gathered_.place_records(f, D, slots_);
-  for (Field* field : std::initializer_list<Field*>{&f.V, &f.mass, &f.own, &f.a, &weights_, coefficients_.get()})
-    field->allocate_tiled(slots_);
-  state_.dimension = D;
-  state_.slots = {0, slots_};
-  state_.all_slots = slots_;
-  state_.V = f.V.ref();
-  state_.mass = f.mass.ref();
-  state_.own = f.own.ref();
-  state_.x = f.x.ref();
-  state_.a = f.a.ref();
-  state_.second = f.stress.ref();
+    records_.place_records(fields_, s, slots_);
+  for (FieldRef const* field : {&s.V, &s.mass, &s.own, &s.a}) fields_[*field].allocate_tiled(slots_);
+  for (Field* field : {&weights_, coefficients_.get()}) field->allocate_tiled(slots_);
+  fields_.bind();
+  s.mu = {};  // plain sums
+  s.second = s.stress;
+  s.slots = {0, slots_};
+  s.all_slots = slots_;
   state_.failure = &failure_;
   if (lattice != nullptr)
     state_.lattice = lattice->table();
   else
-    state_.first = f.X.ref();
+    state_.first = state_.X;
 }
 
 template <int D>
 void ProjectionMatrix<D>::fill(LocalFits<D> const& fits, LazyZeroArray<ScaledCell> const& cells) {
   LazyZeroArray<double> explained(fits.pairs().neighbour.size());  // of the first one of each kind
-  for (Index i = state_.slots.first; i < state_.slots.last; ++i) fields_.mass.at(i) = 1;
+  for (Index i = state_.slots.first; i < state_.slots.last; ++i) value_at(state_.mass, i) = 1;
   fill_sums_and_inverses(fits, explained);
   exec_host::parallel_for(fits.rows().size(), [&](Index k) {
     std::size_t const a = fits.rows()[k];
     auto const i = static_cast<Index>(a);
     for (int m = 0; m < values && fits.representative(a) != a; ++m)
-      fields_.own.at(i, m) = fields_.own.at(static_cast<Index>(fits.representative(a)), m);
-    fields_.V.at(i) = cells[a].volume;
+      value_at(state_.own, i, m) = value_at(state_.own, static_cast<Index>(fits.representative(a)), m);
+    value_at(state_.V, i) = cells[a].volume;
     weights_.at(i, 0) = cells[a].volume * fits.own_weight(a);
     if (state_.lattice.present != nullptr) return;
-    for (int c = 0; c < D; ++c) fields_.X.at(i, c) = fits.X()[a][static_cast<std::size_t>(c)];
-    gathered_.complete_record(D, i);
+    for (int c = 0; c < D; ++c) value_at(state_.X, i, c) = fits.X()[a][static_cast<std::size_t>(c)];
+    records_.complete_record(D, i);
   });
   diagonal_ = LazyZeroArray<double>(cells.size());
   auto const& pairs = fits.pairs();
@@ -155,7 +150,7 @@ typename ProjectionMatrix<D>::Inverse ProjectionMatrix<D>::fill_sums(LocalFits<D
     monomials_of(k);
     for (int m = 0; m < values; ++m) {
       double const weighted = pairs.weight[k] * p[m];
-      fields_.own.at(i, m) += weighted;
+      value_at(state_.own, i, m) += weighted;
       for (int n = m; n < values; ++n) A[m * values + n] += weighted * p[n];
     }
   }
@@ -181,12 +176,13 @@ typename ProjectionMatrix<D>::Inverse ProjectionMatrix<D>::fill_sums(LocalFits<D
 template <int D>
 void ProjectionMatrix<D>::apply(LazyZeroArray<double> const& x, LazyZeroArray<double>& image) {
   for_each_local([&](Index i) {
-    for (int c = 0; c < D; ++c) fields_.x.at(i, c) = x[static_cast<std::size_t>(i) * D + static_cast<std::size_t>(c)];
+    for (int c = 0; c < D; ++c)
+      value_at(state_.x, i, c) = x[static_cast<std::size_t>(i) * D + static_cast<std::size_t>(c)];
   });
   backend_.project(state_, {inverse_.ref(), weights_.ref(), coefficients_->ref()});
   for_each_local([&](Index i) {
     for (int c = 0; c < D; ++c)
-      image[static_cast<std::size_t>(i) * D + static_cast<std::size_t>(c)] = fields_.a.at(i, c);
+      image[static_cast<std::size_t>(i) * D + static_cast<std::size_t>(c)] = value_at(state_.a, i, c);
   });
 }
 

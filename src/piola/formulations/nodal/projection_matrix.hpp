@@ -39,7 +39,7 @@ class ProjectionMatrix {
   template <class F>
   void for_each_local(F const& f) const;
   void allocate(LatticeLayout const* lattice);
-  void share(HaloPlan const& halo);
+  void distribute(HaloPlan const& halo);
   void fill(LocalFits<D> const& fits, LazyZeroArray<ScaledCell> const& cells);
   /// Upper triangle, row by row.
   static constexpr int triangle = values * (values + 1) / 2;
@@ -50,8 +50,8 @@ class ProjectionMatrix {
   Backend const& backend_;
   Index particles_, slots_;
   Range own_;
-  Fields fields_{D};
-  NeighbourRecords gathered_;
+  FieldList fields_;
+  NeighbourRecords records_;
   std::optional<UniqueLaneGroups> groups_;  ///< of a lattice: groups with equal inverses
   Field inverse_, weights_;
   std::unique_ptr<Field> coefficients_;
@@ -59,7 +59,7 @@ class ProjectionMatrix {
   LazyZeroArray<double> diagonal_;
   std::optional<HaloPlan> halo_;
   FailureSlot failure_;
-  BodyState state_;
+  BodyState state_{&fields_, D};
 };
 
 extern template class ProjectionMatrix<1>;

@@ -161,8 +161,9 @@ class Tables {
       to_.images.push_back(static_cast<Index>(k));
       to_.source_of_image.push_back(images.particles().source[k]);
     }
-    to_.share = LazyZeroArray<double>(slots_, 1);
-    for (std::size_t a = 0; a < scaled_.particles; ++a) to_.share[a] = 1 / images.multiplicity(static_cast<Index>(a));
+    to_.own_fractions = LazyZeroArray<double>(slots_, 1);
+    for (std::size_t a = 0; a < scaled_.particles; ++a)
+      to_.own_fractions[a] = 1 / images.multiplicity(static_cast<Index>(a));
   }
 
   void fill_images(IntegrationCorrection const& integration_correction) {

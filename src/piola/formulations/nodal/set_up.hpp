@@ -68,7 +68,7 @@ struct Reference {
   // body.
   std::vector<Index> images;             ///< images that are neighbours, numbered as in SetUp::images
   std::vector<Index> source_of_image;    ///< slots
-  LazyZeroArray<double> share;           ///< fraction of a particle's volume in the body itself; empty: no planes
+  LazyZeroArray<double> own_fractions;   ///< of particle volumes, in the body itself; empty: no planes
   std::optional<LatticeLayout> lattice;  ///< replaces the lists if particles fill a lattice
   std::unique_ptr<HaloPlan> halo;        ///< of ghosts, without fields; nullptr on one rank
   int integration_iterations = 0;
@@ -80,6 +80,10 @@ struct Reference {
   Index owner(Index neighbour_slot) const {
     auto const slots = static_cast<Index>(V.size());
     return neighbour_slot < slots ? neighbour_slot : source_of_image[static_cast<std::size_t>(neighbour_slot - slots)];
+  }
+  /// Fraction of a particle's volume that belongs to the body itself, on this side of its mirror planes.
+  double own_fraction(Index slot) const {
+    return own_fractions.empty() ? 1 : own_fractions[static_cast<std::size_t>(slot)];
   }
   int neighbours(Index slot) const {
     auto const at = static_cast<std::size_t>(slot);

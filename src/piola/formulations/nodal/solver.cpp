@@ -10,21 +10,6 @@
 #include <limits>
 
 namespace piola::nodal {
-
-/// Calls f(name, field, components) for the evolved state of a body, i.e. the content of a checkpoint.
-template <class F>
-void each_evolved(NodalBody const& body, F const& f) {
-  auto const& s = body.state();
-  int const D = s.dimension;
-  f("position", s.x, D);
-  f("velocity", s.v, D);
-  f("acceleration", s.a, D);
-  f("measured_stretch", s.C_measured, D * (D + 1) / 2);
-  f("change", s.change, 2);
-  if (body.stores_history()) f("solid_history", s.history, Fields::solid_values(D));
-  if (body.viscous()) f("viscous_history", s.viscous, Fields::viscous_values(D));
-}
-
 namespace {
 
 /// One or more bodies that do not touch each other.
@@ -80,7 +65,8 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
   }
   void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
     PIOLA_EXPECTS(m.size() == ids.size());
-    slots_.visit(ids, [&](std::size_t k, std::size_t body, Index slot) { m[k] = bodies_[body]->known_mass(slot); });
+    slots_.visit(ids,
+                 [&](std::size_t k, std::size_t body, Index slot) { m[k] = bodies_[body]->replicated_mass(slot); });
   }
   void add_velocities(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override;
 

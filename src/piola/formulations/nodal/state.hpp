@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/exec/device_loops.hpp"
-#include "piola/exec/field.hpp"
+#include "piola/formulations/nodal/fields.hpp"
 #include "piola/formulations/nodal/lattice.hpp"
 #include "piola/materials/registry.hpp"
 #include "piola/mechanics/prescribed_data.hpp"
@@ -25,24 +25,6 @@ struct Constants {
   double least_share;  ///< fraction of its volume ratio at the step's start that a point of a cell must keep
 };
 
-/// Layout of the field `history` of solids in rate form, at the end of the last step.
-struct HistoryLayout {
-  /// Values of the cell: pressure, positive in compression [Pa]; specific internal energy [J/kg].
-  enum : int { pressure, energy, of_cell };
-  /// Values of a point, relative to point(q, D).
-  enum : int {
-    S,                   ///< deviatoric Cauchy stress [Pa], 6 values
-    plastic_strain = 6,  ///< equivalent plastic strain
-    temperature,         ///< [K]
-    damage,              ///< 0 to 1
-    plastic_work,        ///< per reference volume [J/m^3]
-    spread,              ///< tension over that of the cell [Pa]
-    F                    ///< deformation gradient, D x D values
-  };
-
-  static constexpr int point(int q, int D) { return of_cell + q * (F + D * D); }
-};
-
 /// The particles of a body with one material: slots [first, last).
 struct MaterialRange {
   MaterialParameters material;
@@ -62,8 +44,8 @@ struct MirroredParticle {
   int axes;
 };
 
-struct BodyState {
-  int dimension = 3;
+struct BodyState : Fields {
+  using Fields::Fields;
   Range slots;          ///< slots that loops work on: the local ones
   Index all_slots = 0;  ///< all slots, from 0 on
   Constants constants{};
@@ -74,23 +56,8 @@ struct BodyState {
   ListTable list;
   LatticeTable lattice;  ///< replaces the lists if particles fill a lattice
 
-  // Reference: volume of the cell; mass; Cholesky factor of the cell's spread times the parity (columns of L: D x D);
-  // matrices from sums to derivatives: g (values x D) for F, k (terms x second) for H; sums of s P and of s mu.
-  FieldRef V, mass, L, g, k, own;
-  // Evolved: position, velocity; acceleration by all forces at x.
-  FieldRef x, v, a;
-  FieldRef mu;      ///< corrections of the gradients
-  FieldRef offset;  ///< of F over the gradient of positions, from the start; without data: none
-  FieldRef first;   ///< neighbour data of the first sweep: X, x, mu; of a lattice x_c mu_J
-  FieldRef second;  ///< neighbour data of the second sweep: rows (Y_i, Z_i)
-  FieldRef F, P;    ///< gradient at the centroid; mean stress, three-dimensional: for observers
-  FieldRef cell;    ///< energy per volume, mean J, least J: for observers
-  FieldRef C_measured,
-      change;  ///< F^T F at the last measurement of the step; largest change of a strain since, least J now
-  FieldRef viscous, viscous_kept;  ///< see ViscousHistory; and at the start of the step. Without data: no viscosity
-  FieldRef kept;                   ///< x, v, a and the least J at the start of the step
-  FieldRef history,
-      history_kept;  ///< see HistoryLayout; and at the start of the step. Without data: no solids in rate form
+  /// Neighbour data of the sweeps: records of X, x, mu, or of a lattice `products`; `stress`.
+  FieldRef first, second;
 
   PrescribedDirection* held = nullptr;
   Index held_count = 0;

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/nodal/options.hpp"
+#include "piola/formulations/nodal/state.hpp"
+#include "piola/particles/ordering.hpp"
+#include <vector>
+
+namespace piola::nodal {
+
+/// The materials of a body and of its parts, by slots.
+class BodyMaterials {
+ public:
+  BodyMaterials(std::vector<MaterialParameters> const& materials, ParticleSet const& set, Body const& body,
+                SlotOrder const& order, Options const& options);
+
+  /// Sets materials, constants and viscosity of the state. Throws InputError (viscosity of several materials).
+  void attach(BodyState& state, Body const& body, Options const& options) const;
+  /// Reference densities [kg/m^3].
+  std::vector<double> densities() const;
+  MaterialRange const& of(Index slot) const;
+
+ private:
+  ViscousConstants viscosity(BodyState const& state, Body const& body, Options const& options) const;
+
+  std::vector<MaterialRange> ranges_;
+};
+
+}  // namespace piola::nodal

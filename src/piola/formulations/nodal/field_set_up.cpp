@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/nodal/field_set_up.hpp"
+#include "piola/exec/host_loops.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
+#include <algorithm>
+
+namespace piola::nodal {
+namespace {
+
+void copy_at(LazyZeroArray<double> const& from, FieldRef const& to, int components, Index i) {
+  auto const size = static_cast<std::size_t>(components);
+  for (std::size_t c = 0; c < size; ++c)
+    value_at(to, i, static_cast<int>(c)) = from[static_cast<std::size_t>(i) * size + c];
+}
+
+}  // namespace
+
+template <class F>
+void FieldSetUp::each_local(F const& f) const {
+  Range const own = body_.own();
+  exec_host::parallel_for(own.last - own.first, [&](Index k) { f(own.first + k); });
+}
+
+void FieldSetUp::fill_reference(NeighbourRecords& records) {
+  auto& r = reference_;
+  int const D = s_.dimension, values = Fields::values(D), of_k = Fields::terms(D) * Fields::second(D);
+  exec_host::parallel_for(s_.slots.last - s_.slots.first, [&](Index n) {
+    Index const i = s_.slots.first + n;
+    copy_at(r.V, s_.V, 1, i);
+    copy_at(r.mass, s_.mass, 1, i);
+    copy_at(r.L, s_.L, D * D, i);
+    copy_at(r.g, s_.g, values * D, i);
+    copy_at(r.own, s_.own, values + D, i);
+    if (r.group_of_k.empty()) copy_at(r.k, s_.k, of_k, i);
+    // Slots without a particle hold nothing that counts.
+    for (int c = 0; c < D && i < body_.particles(); ++c) value_at(s_.C_measured, i, c) = 1;
+  });
+  Index const stored_k = r.group_of_k.empty() ? 0 : static_cast<Index>(r.k.size()) / of_k;
+  for (Index i = 0; i < stored_k; ++i) copy_at(r.k, s_.k, of_k, i);
+  auto const fill_seen = [&](Index i) {
+    copy_at(r.mu, s_.mu, D, i);
+    if (r.lattice) return;
+    copy_at(r.X, s_.X, D, i);
+    records.complete_record(D, i);
+  };
+  exec_host::parallel_for(s_.slots.last - s_.slots.first, [&](Index n) { fill_seen(s_.slots.first + n); });
+  for (std::size_t n = 0; n < r.images.size(); ++n) fill_seen(body_.slots() + static_cast<Index>(n));
+  for (Index n = 0; n < s_.ghost_count; ++n) fill_seen(s_.ghosts[n]);
+  for (auto* array : {&r.L, &r.g, &r.k, &r.own, &r.mu}) LazyZeroArray<double>().swap(*array);
+}
+
+std::vector<MirroredParticle> FieldSetUp::keep_own_side() {
+  std::vector<MirroredParticle> on_planes;
+  for (Index i = body_.own().first; i < body_.own().last; ++i) {
+    int axes = 0;
+    for (int axis = 0; axis < s_.dimension; ++axis)
+      if (body_.images().on_plane(i, static_cast<std::size_t>(axis))) axes |= 1 << axis;
+    if (axes != 0) on_planes.push_back({i, axes});
+    auto const slot = static_cast<std::size_t>(i);
+    reference_.mass[slot] *= reference_.own_fraction(i);
+    for (auto& part : reference_.parts)
+      if (!part.empty()) part[slot].area *= reference_.own_fraction(i);
+  }
+  return on_planes;
+}
+
+void FieldSetUp::fill_initial() {
+  auto const& moved = assembly_.initial_displacement;
+  auto const& X = body_.set().X;
+  each_local([&](Index i) {
+    auto const at = static_cast<std::size_t>(body_.id(i));
+    for (int c = 0; c < s_.dimension; ++c) {
+      auto const d = static_cast<std::size_t>(c);
+      value_at(s_.x, i, c) = X[at][d] + (moved.empty() ? 0 : moved[at][d]);
+      if (!assembly_.initial_velocity.empty()) value_at(s_.v, i, c) = assembly_.initial_velocity[at][d];
+    }
+  });
+  for (MirroredParticle const& p : mirrored())
+    for (int c = 0; c < s_.dimension; ++c) {
+      if ((p.axes >> c & 1) == 0) continue;
+      value_at(s_.x, p.slot, c) = X[static_cast<std::size_t>(body_.id(p.slot))][static_cast<std::size_t>(c)];
+      value_at(s_.v, p.slot, c) = 0;
+    }
+}
+
+void FieldSetUp::fill_histories() {
+  int const D = s_.dimension;
+  for (MaterialRange const& range : std::span(s_.materials, static_cast<std::size_t>(s_.material_count)))
+    with_solid(range.material, [&](auto const& law) {
+      for (Index i = std::max(range.first, body_.own().first); i < std::min(range.last, body_.own().last); ++i)
+        for (int q = 0; q < Fields::points(D); ++q) {
+          int const at = HistoryLayout::point(q, D);
+          value_at(s_.history, i, at + HistoryLayout::temperature) = law.initial_temperature();
+          for (int c = 0; c < D; ++c) value_at(s_.history, i, at + HistoryLayout::F + c * (D + 1)) = 1;
+        }
+    });
+}
+
+void FieldSetUp::fill_offset(Backend const& backend) {
+  int const D = s_.dimension;
+  Field centroid("CellCentroid", "m", D, Role::reference);
+  centroid.allocate_tiled(body_.slots());
+  each_local([&](Index i) {
+    auto const& F = assembly_.initial_deformation_gradient[static_cast<std::size_t>(body_.id(i))];
+    for (int c = 0; c < D; ++c) {
+      centroid.at(i, c) = reference_.centroid[static_cast<std::size_t>(i * D + c)];
+      for (int J = 0; J < D; ++J) value_at(s_.offset, i, c * D + J) = F[std::size_t{3} * c + J];
+    }
+  });
+  backend.subtract_gradients(s_, centroid.ref());
+  for (MirroredParticle const& p : mirrored())  // what is odd across a plane vanishes there
+    for (int c = 0; c < D; ++c)
+      for (int J = 0; J < D; ++J)
+        if (((p.axes >> c ^ p.axes >> J) & 1) != 0) value_at(s_.offset, p.slot, c * D + J) = 0;
+}
+
+}  // namespace piola::nodal
