@@ -134,9 +134,7 @@ constexpr std::array probe_rows{
              kinds_of_probe(Kind::hole),
              "where the slab ends along the axis"},
     ProbeKey{{{"probe", "cavity_from", quantity, "m", place_range, "slab_from",
-               "hole: coordinate along the axis from which on particles count for the cavity"},
-              fills<&ProbeSpec::cavity_from>,
-              true},
+               "hole: coordinate along the axis from which on particles count for the cavity"}},
              kinds_of_probe(Kind::hole)},
     ProbeKey{{{"probe", "cavity_to", quantity, "m", place_range, "no bound",
                "hole: coordinate along the axis up to which particles count for the cavity"},
@@ -156,9 +154,7 @@ constexpr std::array quantity_rows{
                 take_member},
     QuantityKey{{"quantity", "threshold", quantity, "", any_value, "none",
                  "first_time_above, first_time_below (required there), in the unit of the column"}},
-    QuantityKey{{"quantity", "time", quantity, "s", not_negative, "none", "at_time (required there)"},
-                fills<&QuantitySpec::time>,
-                true},
+    QuantityKey{{"quantity", "time", quantity, "s", not_negative, "none", "at_time (required there)"}},
     QuantityKey{{"quantity", "reference", formula, "", any_value, "none",
                  "mean_absolute_difference, relative_error (required there): formula in t and the constants"}},
     QuantityKey{
@@ -167,9 +163,7 @@ constexpr std::array quantity_rows{
         fills<&QuantitySpec::from>,
         true},
     QuantityKey{{"quantity", "until", quantity, "s", not_negative, "the end of the run",
-                 "rows up to this time count; change: the value then"},
-                fills<&QuantitySpec::until>,
-                true},
+                 "rows up to this time count; change: the value then"}},
     QuantityKey{
         {"quantity", "unit", text, "", any_value, "that of the column", "unit in which the summary shows the number"}},
 };
