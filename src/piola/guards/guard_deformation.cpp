@@ -13,7 +13,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Metals yield and gases of an explosive expand: any det F that their law allows is possible.
 bool allows_any_jacobian(BodySpec const& body) {
-  return is_hypoelastic(body.material) && (body.law != "elastic" || is_explosive(body.material));
+  bool allows = false;
+  with_solid(body.material, [&](auto const& law) { allows = law.yields || law.front_speed() > 0; });
+  return allows;
 }
 
 /// det F of materials that do not yield.

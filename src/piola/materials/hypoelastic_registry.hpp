@@ -53,8 +53,6 @@ struct EquationsFor<JohnsonHolmquist> {
 /// A law of a solid in the registry: a strength with its equations of state.
 template <class Strength>
 struct SolidLaw {
-  static constexpr std::string_view name = Strength::name;
-  static constexpr std::string_view about = Strength::about;
   static constexpr std::array<Choice, 3> all_choices{
       Choice{"eos", "equation of state: pressure by density and energy", EquationsFor<Strength>::words},
       Choice{"damage", "growth of damage with plastic strain", EquationsFor<Strength>::damage},

@@ -13,9 +13,19 @@ constexpr auto table(LawList<Law...>, StrengthList<Strength...>) {
   static_assert(((Law::parameters.size() <= MaterialParameters::max_values) && ...));
   static_assert(((SolidLaw<Strength>::parameters.size() <= MaterialParameters::max_values) && ...));
   int index = 0;
-  return std::array{LawInfo{Law::name, Law::about, Law::parameters, Law::volumetric_split, false, {}, index++}...,
-                    LawInfo{SolidLaw<Strength>::name, SolidLaw<Strength>::about, SolidLaw<Strength>::parameters, false,
-                            true, SolidLaw<Strength>::choices, index++}...};
+  return std::array{LawInfo{.name = Law::name,
+                            .about = Law::about,
+                            .parameters = Law::parameters,
+                            .volumetric_split = Law::volumetric_split,
+                            .elastic_rate = RateForm<Law>,
+                            .index = index++}...,
+                    LawInfo{.name = Strength::name,
+                            .about = Strength::about,
+                            .parameters = SolidLaw<Strength>::parameters,
+                            .rate_form = true,
+                            .brittle = Strength::brittle,
+                            .choices = SolidLaw<Strength>::choices,
+                            .index = index++}...};
 }
 
 constexpr auto all = table(Laws{}, Strengths{});
@@ -23,6 +33,13 @@ constexpr auto all = table(Laws{}, Strengths{});
 }  // namespace
 
 std::span<LawInfo const> laws() { return all; }
+
+std::vector<std::string_view> laws_that(bool (*able)(LawInfo const&)) {
+  std::vector<std::string_view> names;
+  for (LawInfo const& law : all)
+    if (able(law)) names.push_back(law.name);
+  return names;
+}
 
 std::optional<LawInfo> find_law(std::string_view name) {
   for (auto const& law : all)

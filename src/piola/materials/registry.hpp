@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace piola {
 
@@ -14,6 +15,8 @@ struct LawInfo {
   std::span<Parameter const> parameters;
   bool volumetric_split = false;  ///< energy: isochoric part plus kappa/2 (J - 1)^2
   bool rate_form = false;         ///< a solid in rate form (solid.hpp), else a hyperelastic law
+  bool elastic_rate = false;      ///< a hyperelastic law that also gives its stress rate (RateForm in laws.hpp)
+  bool brittle = false;           ///< a solid whose damage is part of its strength
   std::span<Choice const> choices = {};
   int index = 0;  ///< index in the registry, for MaterialParameters::law
 };
@@ -27,6 +30,8 @@ struct MaterialParameters {
 };
 
 std::span<LawInfo const> laws();
+/// Names of the laws for which `able` holds, in the order of the registry.
+std::vector<std::string_view> laws_that(bool (*able)(LawInfo const&));
 std::optional<LawInfo> find_law(std::string_view name);
 
 /// Index of a word among those that a choice allows; -1 if not allowed.

@@ -118,9 +118,11 @@ constexpr std::array formulas{
     FormulaInfo{
         "ignition", "time at which an explosive (eos = \"jwl\") is lit, in s; without it: at once everywhere", {}}};
 
-constexpr std::array<std::string_view, 7> usable_laws{"elastic",         "perfectly_plastic", "isotropic_hardening",
-                                                      "johnson_cook",    "zerilli_armstrong", "johnson_holmquist",
-                                                      "steinberg_guinan"};
+/// Solids in rate form.
+std::span<std::string_view const> usable_laws() {
+  static auto const usable = laws_that([](LawInfo const& law) { return law.rate_form; });
+  return usable;
+}
 
 constexpr std::array diagnostics{DiagnosticInfo{"internal_energy", "J"},
                                  DiagnosticInfo{"contact_energy", "J"},
@@ -290,7 +292,7 @@ FormulationInfo info() {
                        "damage, contact (Young, Teixeira-Dias, Azevedo, Mill 2021)",
                        parameters,
                        choices,
-                       usable_laws,
+                       usable_laws(),
                        diagnostics};
   info.mirrors = false;
   info.contact = true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/solver.hpp"
 #include "piola/base/errors.hpp"
+#include "piola/base/text.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/adaptle/observe.hpp"
 #include "piola/formulations/adaptle/options.hpp"
@@ -20,20 +21,19 @@ void check(Assembly const& assembly) {
   Problems problems;
   for (std::size_t b = 0; b < assembly.materials.size(); ++b)
     if (!is_hypoelastic(assembly.materials[b]))
-      problems.add({}, fmt::format("adaptle: the law of body \"{}\" has no rate form (allowed: elastic, "
-                                   "perfectly_plastic, isotropic_hardening, johnson_cook, zerilli_armstrong, "
-                                   "johnson_holmquist, steinberg_guinan) - choose another law or formulation",
-                                   assembly.particles.bodies[b].name));
+      problems.add({},
+                   fmt::format("adaptle: the law of body \"{}\" has no rate form (allowed: {}) - choose another law or "
+                               "formulation",
+                               assembly.particles.bodies[b].name, joined(info().laws)));
   for (std::size_t b = 0; b < assembly.materials.size(); ++b)
     with_solid(assembly.materials[b], [&](auto const& law) {
       if (law.yield_stress({}, 0, law.kappa) > 0) return;
-      bool const brittle = laws()[static_cast<std::size_t>(assembly.materials[b].law)].name == "johnson_holmquist";
       problems.add(
           {}, fmt::format("adaptle: the material of body \"{}\" has no strength{}", assembly.particles.bodies[b].name,
-                          brittle ? " under pressure (allowed: hugoniot_elastic_limit above pressure_at_limit) - "
-                                    "check both"
-                                  : " (allowed: a stress above 0 at which it yields) - give it one, such as "
-                                    "athermal_stress or yield_stress"));
+                          law.brittle ? " under pressure (allowed: hugoniot_elastic_limit above pressure_at_limit) - "
+                                        "check both"
+                                      : " (allowed: a stress above 0 at which it yields) - give it one, such as "
+                                        "athermal_stress or yield_stress"));
     });
   if (!assembly.initial_deformation_gradient.empty())
     problems.add({},

@@ -10,8 +10,12 @@
 namespace piola::jst_sph {
 namespace {
 
-constexpr std::array<std::string_view, 5> hyperelastic_laws{"linear_elastic", "neo_hookean", "mooney_rivlin",
-                                                            "saint_venant_kirchhoff", "compressible_neo_hookean"};
+/// Hyperelastic laws.
+std::span<std::string_view const> usable_laws() {
+  static auto const usable = laws_that([](LawInfo const& law) { return !law.rate_form; });
+  return usable;
+}
+
 constexpr std::array<std::string_view, 4> variable_words{"pF", "pFJ", "pFHJ", "displacement"};
 constexpr std::array<std::string_view, 2> scheme_words{"filtered", "paper"};
 constexpr std::array<std::string_view, 2> switch_words{"on", "off"};
@@ -81,7 +85,7 @@ FormulationInfo info() {
       "(Lee, Gil, Greto, Kulasegaram, Bonet 2016)",
       parameters,
       choices,
-      hyperelastic_laws,
+      usable_laws(),
       diagnostics};
   info.cell_volumes = true;
   info.can_be_coupled = true;

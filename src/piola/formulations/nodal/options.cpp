@@ -11,10 +11,10 @@ namespace piola::nodal {
 namespace {
 
 /// Hyperelastic laws and solids in rate form without failure.
-constexpr std::array<std::string_view, 11> laws_without_failure{
-    "linear_elastic",  "neo_hookean",       "mooney_rivlin",       "saint_venant_kirchhoff", "compressible_neo_hookean",
-    "elastic",         "perfectly_plastic", "isotropic_hardening", "johnson_cook",           "zerilli_armstrong",
-    "steinberg_guinan"};
+std::span<std::string_view const> usable_laws() {
+  static auto const usable = laws_that([](LawInfo const& law) { return !law.brittle; });
+  return usable;
+}
 
 constexpr std::array parameters{
     Parameter{"min_mass_ratio", "1",
@@ -56,7 +56,7 @@ FormulationInfo info() {
       "four points, exact masses; nothing but plastic flow dissipates, on lattices and irregular clouds alike",
       parameters,
       choices,
-      laws_without_failure,
+      usable_laws(),
       diagnostics};
   info.can_be_coupled = true;
   info.observes_locally = true;

@@ -3,6 +3,7 @@
 #include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/kernels/list.hpp"
+#include "piola/materials/registry.hpp"
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -69,7 +70,11 @@ constexpr std::array parameters{
               "wave modulus",
               Interval{0, 1, false, false}, 0.05}};
 
-constexpr std::array<std::string_view, 1> usable_laws{"linear_elastic"};
+/// Hyperelastic laws that give their stress rate.
+std::span<std::string_view const> usable_laws() {
+  static auto const usable = laws_that([](LawInfo const& law) { return law.elastic_rate; });
+  return usable;
+}
 
 constexpr std::array diagnostics{DiagnosticInfo{"list_updates", "1"}, DiagnosticInfo{"triangulations", "1"},
                                  DiagnosticInfo{"centred_energy", "J"}, DiagnosticInfo{"strain_drift", "1"}};
@@ -85,7 +90,7 @@ FormulationInfo info() {
       "(Serroukh, Mabssout 2022)",
       parameters,
       choices,
-      usable_laws,
+      usable_laws(),
       diagnostics};
   info.cracks = true;
   info.mirrors = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/taylor_sph/solver.hpp"
 #include "piola/base/errors.hpp"
+#include "piola/base/text.hpp"
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/common/body_resultants.hpp"
 #include "piola/formulations/common/diagnostics_sum.hpp"
@@ -8,6 +9,7 @@
 #include "piola/formulations/coupled_particles.hpp"
 #include "piola/formulations/taylor_sph/body.hpp"
 #include "piola/formulations/taylor_sph/observe.hpp"
+#include "piola/formulations/taylor_sph/options.hpp"
 #include "piola/materials/laws.hpp"
 #include "piola/mechanics/prescribed.hpp"
 #include "piola/mechanics/resultants.hpp"
@@ -25,10 +27,9 @@ void check(Assembly const& assembly) {
     with_law(material, [&](auto const& law) {
       using Law = std::decay_t<decltype(law)>;
       if constexpr (!RateForm<Law>)
-        problems.add({},
-                     fmt::format("taylor_sph: the law {} has no rate form (allowed: linear_elastic) - choose another "
-                                 "law or formulation",
-                                 Law::name));
+        problems.add(
+            {}, fmt::format("taylor_sph: the law {} has no rate form (allowed: {}) - choose another law or formulation",
+                            Law::name, joined(info().laws)));
     });
   if (!assembly.initial_deformation_gradient.empty())
     problems.add({}, "taylor_sph: there is an initial deformation gradient (stress starts at zero here) - remove it");
