@@ -2,9 +2,7 @@
 #include "piola/formulations/coupling/contact_coupling.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
-#include "piola/formulations/coupled_particles.hpp"
 #include "piola/math/array_conversion.hpp"
-#include "piola/mechanics/prescribed.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,181 +25,76 @@ constexpr std::array<std::string_view, 4> offered_by_contact{"ContactPressure", 
 
 }  // namespace
 
-void ContactCoupling::read_masses(Formulations const& formulations) {
-  std::vector<double> m;
-  for (GroupParticles const& share : shares_) {
-    m.resize(share.local.size());
-    formulations[share.part]->read_masses(share.local, m);
-    for (std::size_t k = 0; k < share.at.size(); ++k) mass_[static_cast<std::size_t>(share.at[k])] = m[k];
-  }
-}
-
-void ContactCoupling::read_state(Formulations const& formulations) {
-  std::vector<Point> x, v;
-  if (colours_.any()) read_masses(formulations);  // deleted particles have none
-  for (GroupParticles const& share : shares_) {
-    x.resize(share.local.size());
-    v.resize(share.local.size());
-    formulations[share.part]->read_motion(share.local, x, v);
-    for (std::size_t k = 0; k < share.at.size(); ++k) {
-      x_[static_cast<std::size_t>(share.at[k])] = vector_of(x[k]);
-      v_[static_cast<std::size_t>(share.at[k])] = vector_of(v[k]);
-    }
-  }
-  place_images();
-}
-
-/// Removes points of particles that their formulation now keeps apart from other bodies itself.
-void ContactCoupling::drop_lost_surfaces(Formulations const& formulations) {
-  std::vector<char> lost;
-  for (GroupParticles& share : shares_) {
-    CoupledParticles const& particles = *formulations[share.part];
-    if (particles.surfaces_lost() == share.lost) continue;
-    share.lost = particles.surfaces_lost();
-    lost.resize(system_.ids().size());
-    for (std::size_t k = 0; k < share.at.size(); ++k)
-      if (auto const i = static_cast<std::size_t>(share.at[k]);
-          i < lost.size() && particles.has_lost_surface(share.local[k]))
-        lost[i] = 1;
-  }
-  if (!lost.empty()) system_.drop(lost);
-}
-
-void ContactCoupling::place_images() {
-  for (Image const& image : images_) {
-    auto const at = static_cast<std::size_t>(image.at), source = static_cast<std::size_t>(image.source);
-    for (int c = 0; c < 3; ++c) {
-      double const sign = image.sign[static_cast<std::size_t>(c)];
-      x_[at][c] = sign * x_[source][c] + image.shift[static_cast<std::size_t>(c)];
-      v_[at][c] = sign * v_[source][c];
-    }
-    mass_[at] = mass_[source];
-  }
-}
-
-/// Adds the forces on images to their sources: the energy is a function of the particles of the run.
-void ContactCoupling::fold_images() {
-  if (images_.empty()) return;
-  std::vector<Index> real;
-  auto image = images_.begin();
-  for (Index const k : loaded_indices_) {
-    while (image != images_.end() && image->at < k) ++image;
-    if (image == images_.end() || image->at != k) {
-      real.push_back(k);
-      continue;
-    }
-    Vec<3>&from = forces_[static_cast<std::size_t>(k)], &to = forces_[static_cast<std::size_t>(image->source)];
-    for (int c = 0; c < 3; ++c) to[c] += image->sign[static_cast<std::size_t>(c)] * from[c];
-    from = {};
-    real.push_back(image->source);
-  }
-  std::sort(real.begin(), real.end());
-  real.erase(std::unique(real.begin(), real.end()), real.end());
-  loaded_indices_ = std::move(real);
-}
-
 void ContactCoupling::look(Formulations const& formulations) {
-  PIOLA_EXPECTS(formulations.size() == shares_.size());
-  read_masses(formulations);
-  read_state(formulations);
-  system_.set_masses({mass_.begin(), mass_.begin() + static_cast<std::ptrdiff_t>(system_.ids().size())});
-  drop_lost_surfaces(formulations);
-  ties_.look(system_, x_, mass_);
+  PIOLA_EXPECTS(formulations.size() == particles_.group_count());
+  particles_.read_masses(formulations);
+  particles_.read_motion(formulations);
+  system_.set_masses(particles_.surface_masses());
+  system_.drop(particles_.find_lost_surfaces(formulations));
+  std::vector<Vec<3>> const& x = particles_.x();
+  ties_.start(system_, x, particles_.masses());
   if (loaded_.empty()) {
-    system_.start(x_);
+    system_.start(x);
     motion_.start(system_);
   } else {
-    system_.restore(x_, std::exchange(loaded_, {}));
+    system_.restore(x, std::exchange(loaded_, {}));
   }
-  colours_.evaluate(x_, mass_);
+  colours_.evaluate(x, particles_.masses());
   sum_forces();
   closing_ = contact_time_step();
 }
 
 /// Contact and ties together.
 void ContactCoupling::sum_forces() {
-  for (Index const k : loaded_indices_) forces_[static_cast<std::size_t>(k)] = {};
-  forces_.resize(x_.size());
-  loaded_indices_.clear();
+  auto& [forces, loaded] = forces_;
+  for (Index const k : loaded) forces[static_cast<std::size_t>(k)] = {};
+  forces.resize(particles_.count());
+  loaded.clear();
   std::set_union(system_.loaded_indices().begin(), system_.loaded_indices().end(), ties_.loaded_indices().begin(),
-                 ties_.loaded_indices().end(), std::back_inserter(loaded_indices_));
+                 ties_.loaded_indices().end(), std::back_inserter(loaded));
   for (Index const k : system_.loaded_indices())
-    forces_[static_cast<std::size_t>(k)] = system_.forces()[static_cast<std::size_t>(k)];
-  ties_.add_forces(forces_);
-  fold_images();
-  std::vector<Index> const surfaces = std::exchange(loaded_indices_, {});
+    forces[static_cast<std::size_t>(k)] = system_.forces()[static_cast<std::size_t>(k)];
+  ties_.add_forces(forces);
+  particles_.fold_images(forces_);
+  std::vector<Index> const surfaces = std::exchange(loaded, {});
   std::set_union(surfaces.begin(), surfaces.end(), colours_.loaded_indices().begin(), colours_.loaded_indices().end(),
-                 std::back_inserter(loaded_indices_));
+                 std::back_inserter(loaded));
   for (Index const k : colours_.loaded_indices()) {
     auto const i = static_cast<std::size_t>(k);
-    forces_[i] = forces_[i] + colours_.forces()[i];
+    forces[i] = forces[i] + colours_.forces()[i];
   }
 }
 
-/// The impulse of `half` [s] by the forces as they are. Directions that a support holds keep their velocity: the
-/// support gives the impulse back and does the work that its motion takes.
-void ContactCoupling::give(Formulations const& formulations, double time, double half) {
-  std::vector<std::vector<std::int64_t>> ids(shares_.size());
-  std::vector<std::vector<Point>> change(shares_.size());
-  std::vector<ImpulseSum> kept_by(actions_.supports.size());
-  exec::ReproducibleSum kept_work;
-  for (std::size_t s = 0; s < shares_.size(); ++s) {
-    GroupParticles const& share = shares_[s];
-    auto pushed = loaded_indices_.begin();
-    for (std::size_t k = 0; k < share.at.size() && pushed != loaded_indices_.end(); ++k) {
-      while (pushed != loaded_indices_.end() && *pushed < share.at[k]) ++pushed;
-      if (pushed == loaded_indices_.end() || *pushed != share.at[k]) continue;
-      auto const i = static_cast<std::size_t>(share.at[k]);
-      Vec<3> impulse = half * forces_[i];
-      for (ConstrainedDirection const& held : held_[i]) {
-        if (has_ended(held.until, time)) continue;
-        Vec<3> const d = vector_of(held.direction);
-        Vec<3> const kept = dot(impulse, d) * d;
-        impulse = impulse - kept;
-        if (held.support == plane) continue;
-        kept_work += dot(kept, v_[i]);
-        kept_by[held.support].add(array_of(x_[i]), array_of(-1.0 * kept));
-      }
-      ids[s].push_back(share.local[k]);
-      change[s].push_back(array_of((1 / mass_[i]) * impulse));
-      v_[i] = v_[i] + (1 / mass_[i]) * impulse;
-    }
-    formulations[share.part]->add_velocities(ids[s], change[s]);
-  }
-  for (std::size_t s = 0; s < kept_by.size(); ++s) actions_.supports[s].add(kept_by[s].value());
-  work_ -= kept_work.value();
+/// Applies `factor` times these vectors as impulses [N s] to the bodies, and reactions to supports.
+void ContactCoupling::apply(Formulations const& formulations, SparseVectors const& impulses, double factor,
+                            double time) {
+  particles_.apply(formulations, impulses, factor, time, held_);
+  work_ -= held_.transfer_reactions(actions_.supports);
 }
 
-/// Applies the contact impulse of `half` [s] to the bodies (give), adds it to the energy balance
+/// Applies the contact impulse of `half` [s] to the bodies (apply), adds it to the energy balance
 /// (add_to_energy_balance) and to the rigid shapes (kick).
 void ContactCoupling::apply_impulses(Formulations const& formulations, double time, double half) {
-  give(formulations, time, half);
+  apply(formulations, forces_, half, time);
   add_to_energy_balance(half);
   motion_.kick(system_, time, half);
 }
 
-/// Applies impulses of chatter damping, after those of contact. They temporarily replace the forces.
+/// Applies impulses of chatter damping, after those of contact.
 void ContactCoupling::damp_chatter(Formulations const& formulations, double time) {
   if (!system_.damps_chatter()) return;
-  contact::ChatterDamping const& damping = system_.chatter(x_, v_);
+  contact::ChatterDamping const& damping = system_.chatter(particles_.x(), particles_.v());
   if (damping.damped().empty()) return;
-  std::vector<Vec<3>> forces(forces_.size());
-  for (Index const k : damping.damped())
-    forces[static_cast<std::size_t>(k)] = damping.impulses()[static_cast<std::size_t>(k)];
-  std::vector<Index> pushed = damping.damped();
-  std::swap(forces, forces_);
-  std::swap(pushed, loaded_indices_);
   std::vector<Vec<3>> before;
-  for (Index const k : loaded_indices_) before.push_back(v_[static_cast<std::size_t>(k)]);
-  give(formulations, time, 1);
+  for (Index const k : damping.damped()) before.push_back(particles_.v()[static_cast<std::size_t>(k)]);
+  SparseVectors const impulses{damping.impulses(), damping.damped()};
+  apply(formulations, impulses, 1, time);
   exec::ReproducibleSum loss;
   for (std::size_t n = 0; n < before.size(); ++n) {
-    auto const k = static_cast<std::size_t>(loaded_indices_[n]);
-    loss += -0.5 * dot(forces_[k], before[n] + v_[k]);
+    auto const k = static_cast<std::size_t>(impulses.loaded[n]);
+    loss += -0.5 * dot(impulses.values[k], before[n] + particles_.v()[k]);
   }
   chatter_loss_ += loss.value();
-  std::swap(forces, forces_);
-  std::swap(pushed, loaded_indices_);
 }
 
 /// Records the impulses between rigid shapes and pairs of bodies in `half` [s].
@@ -217,31 +110,21 @@ void ContactCoupling::add_to_energy_balance(double half) {
     actions_.rigids[r].add(by);
   }
   for (std::size_t a = 0; a < names_.size(); ++a)
-    for (std::size_t b = 0; b < names_.size(); ++b) {
-      auto const& between = system_.between(a, b);
-      auto& sum = pair_impulses_[a * names_.size() + b];
-      sum.force = sum.force + half * between.force;
-      sum.moment = sum.moment + half * between.moment;
-    }
-  for (std::size_t p = 0; p < colours_.pairs().size(); ++p) {
-    auto const& pair = colours_.pairs()[p];
-    auto& sum = pair_impulses_[pair.a * names_.size() + pair.b];
-    auto const between = colours_.resultant_on_first(p);
-    sum.force = sum.force + half * between.force;
-    sum.moment = sum.moment + half * between.moment;
-  }
+    for (std::size_t b = 0; b < names_.size(); ++b) pair_impulses_.add(a, b, system_.between(a, b), half);
+  for (std::size_t p = 0; p < colours_.pairs().size(); ++p)
+    pair_impulses_.add(colours_.pairs()[p].a, colours_.pairs()[p].b, colours_.resultant_on_first(p), half);
   ties_.add_to_energy_balance(half);
 }
 
 double ContactCoupling::contact_time_step() const {
-  return std::min(
-      {system_.contact_time_step(v_), motion_.contact_time_step(system_.rigids()), colours_.contact_time_step(x_, v_)});
+  return std::min({system_.contact_time_step(particles_.v()), motion_.contact_time_step(system_.rigids()),
+                   colours_.contact_time_step(particles_.x(), particles_.v())});
 }
 
 void ContactCoupling::begin(Formulations const& formulations, double time, double dt) {
-  PIOLA_EXPECTS(formulations.size() == shares_.size() && dt > 0);
+  PIOLA_EXPECTS(formulations.size() == particles_.group_count() && dt > 0);
   actions_.begin(dt);
-  std::fill(pair_impulses_.begin(), pair_impulses_.end(), contact::ForceMoment{});
+  pair_impulses_.clear();
   ties_.begin();
   last_dt_ = dt;
   apply_impulses(formulations, time, 0.5 * dt);
@@ -250,14 +133,15 @@ void ContactCoupling::begin(Formulations const& formulations, double time, doubl
 }
 
 void ContactCoupling::finish(Formulations const& formulations, double time, double dt) {
-  PIOLA_EXPECTS(formulations.size() == shares_.size() && dt > 0);
-  read_state(formulations);
-  drop_lost_surfaces(formulations);
-  ties_.evaluate(system_, x_);
-  system_.evaluate(x_, dt);
+  PIOLA_EXPECTS(formulations.size() == particles_.group_count() && dt > 0);
+  if (colours_.any()) particles_.read_masses(formulations);  // deleted particles have none
+  particles_.read_motion(formulations);
+  system_.drop(particles_.find_lost_surfaces(formulations));
+  ties_.evaluate(system_, particles_.x());
+  system_.evaluate(particles_.x(), dt);
   ties_.transfer_energy(system_);
   motion_.evaluate(system_, dt);
-  colours_.evaluate(x_, mass_);
+  colours_.evaluate(particles_.x(), particles_.masses());
   sum_forces();
   friction_work_ += system_.totals().friction_work + motion_.between_shapes().friction_work;
   apply_impulses(formulations, time, 0.5 * dt);
@@ -281,7 +165,7 @@ std::vector<Action> ContactCoupling::pairs() const {
       bool const coloured = std::any_of(colours_.pairs().begin(), colours_.pairs().end(),
                                         [&](auto const& pair) { return pair.a == a && pair.b == b; });
       if (!system_.is_active(a, b) && !coloured) continue;
-      auto const& sum = pair_impulses_[a * names_.size() + b];
+      contact::ForceMoment const& sum = pair_impulses_(a, b);
       all.push_back({names_[a] + "-" + names_[b], array_of(scale * sum.force), array_of(scale * sum.moment)});
     }
   ties_.add_actions(scale, all);
@@ -332,7 +216,7 @@ bool ContactCoupling::sample(std::string_view field, std::span<double> values) c
   OutputField const& observed = find_output_field(field, offered_by_contact);
   for (auto const& at : system_.at_particles()) {
     auto const place = std::lower_bound(system_.ids().begin(), system_.ids().end(), at.id) - system_.ids().begin();
-    auto const id = run_ids_[static_cast<std::size_t>(place)];
+    auto const id = particles_.id(static_cast<std::size_t>(place));
     if (id < 0) continue;
     ParticleOutput p;
     p.id = static_cast<double>(id);

@@ -2,13 +2,15 @@
 #pragma once
 #include "piola/formulations/common/mirrored_assembly.hpp"
 #include "piola/formulations/common/output_fields.hpp"
+#include "piola/formulations/coupling/contact_particles.hpp"
 #include "piola/formulations/coupling/coupled_formulations.hpp"
+#include "piola/formulations/coupling/held_directions.hpp"
+#include "piola/formulations/coupling/pair_impulses.hpp"
 #include "piola/formulations/coupling/tie_coupling.hpp"
 #include "piola/mechanics/contact/colour_contact.hpp"
 #include "piola/mechanics/contact/rigid_motion.hpp"
 #include "piola/mechanics/contact/surface_contact.hpp"
 #include "piola/mechanics/resultants.hpp"
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,7 +22,7 @@ namespace piola {
 /// kick-drift-kick formulations this is velocity Verlet with the contact force included.
 class ContactCoupling {
  public:
-  using Formulations = std::vector<CoupledParticles*>;  ///< by part
+  using Formulations = ContactParticles::Formulations;
   ContactCoupling(Assembly const& whole, std::vector<FormulationGroup> const& parts);
 
   /// Evaluates the forces of the current state: before the first step and after loading a checkpoint.
@@ -57,62 +59,24 @@ class ContactCoupling {
  private:
   ContactCoupling(Assembly const& whole, MirroredAssembly const& continued, std::vector<FormulationGroup> const& parts);
 
-  /// A direction of a particle that is held by a support, or by a mirror plane, which has no record of its force.
-  struct ConstrainedDirection {
-    std::size_t support;  ///< index of the support, or `plane`
-    std::array<double, 3> direction;
-    double until;  ///< [s]
-  };
-  struct GroupParticles {
-    std::size_t part;
-    std::vector<Index> at;            ///< indices into run_ids_
-    std::vector<std::int64_t> local;  ///< ids in the part
-    std::int64_t lost = 0;            ///< particles without a surface at the last check
-  };
-
-  static constexpr std::size_t plane = static_cast<std::size_t>(-1);
-  /// Image of a point at a mirror plane, by index into SurfaceContactSystem::ids(): x' = sign x + shift of its source.
-  struct Image {
-    Index at, source;
-    std::array<double, 3> sign, shift;
-  };
-
-  void find_particles(MirroredAssembly const& continued);
-  void find_coloured(Assembly const& whole);
-  void find_shares(std::vector<FormulationGroup> const& parts);
-  void place_images();
-  void fold_images();
-  void read_masses(Formulations const& formulations);
-  void read_state(Formulations const& formulations);
-  void drop_lost_surfaces(Formulations const& formulations);
   void apply_impulses(Formulations const& formulations, double time, double half);
-  void give(Formulations const& formulations, double time, double half);
+  void apply(Formulations const& formulations, SparseVectors const& impulses, double factor, double time);
   void damp_chatter(Formulations const& formulations, double time);
   void add_to_energy_balance(double half);
   double contact_time_step() const;
-  void find_held(MirroredAssembly const& continued);
   void sum_forces();
 
-  int dimension_;
   std::vector<std::string> names_;  ///< of bodies
   std::vector<RigidShape> shapes_;
-  std::vector<Support> supports_;
   contact::SurfaceContactSystem system_;
   contact::RigidMotion motion_;
-  std::vector<GroupParticles> shares_;
-  /// Ids in the run by index: those of SurfaceContactSystem::ids(), with -1 for images, then the particles of bodies
-  /// that are only in colour contact.
-  std::vector<std::int64_t> run_ids_;
-  std::vector<Image> images_;                            ///< by `at`
-  std::vector<std::vector<ConstrainedDirection>> held_;  ///< by index into run_ids_
-  std::vector<double> mass_;
-  std::vector<Vec<3>> x_, v_;
-  Resultants actions_;
   TieCoupling ties_;
+  ContactParticles particles_;
   contact::ColourContact colours_;
-  std::vector<Vec<3>> forces_;         ///< of contact and ties [N], by index into run_ids_
-  std::vector<Index> loaded_indices_;  ///< indices with a force, ascending
-  std::vector<contact::ForceMoment> pair_impulses_;
+  HeldDirections held_;
+  Resultants actions_;
+  PairImpulses pair_impulses_;
+  SparseVectors forces_;        ///< of contact and ties [N]
   std::vector<double> loaded_;  ///< from a checkpoint, until the state of the bodies is loaded
   double work_ = 0, friction_work_ = 0, chatter_loss_ = 0, last_dt_ = 0, closing_ = 0;
 };

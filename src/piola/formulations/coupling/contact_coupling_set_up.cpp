@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who meets whom, and where the particles of surfaces are.
+// Settings of contact, from the assembly.
 #include "piola/base/contracts.hpp"
 #include "piola/formulations/coupling/contact_coupling.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
-#include "piola/math/array_conversion.hpp"
-#include "piola/mechanics/prescribed.hpp"
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -50,14 +47,14 @@ bool have_surfaces(Assembly const& whole, std::size_t a, std::size_t b) {
 /// Pair settings of surface contact. Surfaces are in contact unless both bodies have kernel contact of their own and
 /// are neither tied nor named as a pair, or one has it and the other is a rigid shape that does not rotate. Settings of
 /// a pair override those of all.
-contact::PairSettings touches_of(Assembly const& whole) {
+contact::PairSettings pair_settings(Assembly const& whole) {
   auto const own = [&](std::size_t b) {
     auto const info = find_formulation(whole.formulations[b].name);
     return info && info->contact && whole.contact.law != ContactRule::Law::surface;
   };
   auto const& bodies = whole.particles.bodies;
   std::size_t const n = bodies.size(), all = n + whole.rigid_shapes.size();
-  contact::PairSettings touches(n, std::vector<contact::PairSetting>(all));
+  contact::PairSettings settings(n, std::vector<contact::PairSetting>(all));
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = 0; b < all; ++b) {
       bool const rigid = b >= n;
@@ -69,10 +66,10 @@ contact::PairSettings touches_of(Assembly const& whole) {
                                           : own(b) && !contact::is_tied(whole.ties, a, b) && pair == nullptr);
       bool const others = a == b ? pair != nullptr || whole.contact.self : !apart;
       bool const off = whole.contact.law == ContactRule::Law::none || (pair != nullptr && pair->off);
-      touches[a][b] = {surfaces && others && !off, 0.5 * (pair != nullptr ? pair->scale : whole.contact.scale),
-                       pair != nullptr ? pair->friction : whole.contact.friction};
+      settings[a][b] = {surfaces && others && !off, 0.5 * (pair != nullptr ? pair->scale : whole.contact.scale),
+                        pair != nullptr ? pair->friction : whole.contact.friction};
     }
-  return touches;
+  return settings;
 }
 
 /// Pairs in colour contact: bodies that accept external impulses, one of them without a surface. Not with mirror
@@ -99,7 +96,7 @@ std::vector<contact::ColourContact::Pair> coloured_pairs(Assembly const& whole) 
 }
 
 contact::SurfaceContactSystem system_of(Assembly const& whole) {
-  return {whole.particles, whole.surfaces, rigid_surfaces(whole), touches_of(whole)};
+  return {whole.particles, whole.surfaces, rigid_surfaces(whole), pair_settings(whole)};
 }
 
 /// The layer between rigid shapes is that of the stiffest body that has a surface.
@@ -115,77 +112,33 @@ contact::RigidMotion motion_of(Assembly const& whole) {
 
 /// Largest fraction of the friction heat for chatter damping, by body. Zero with mirror planes, because half of a
 /// particle on a plane is missing in its cluster.
-std::vector<double> chatter_shares(Assembly const& whole) {
+std::vector<double> chatter_fractions(Assembly const& whole) {
   constexpr std::string_view key = "chatter_damping";
-  std::vector<double> shares;
+  std::vector<double> fractions;
   for (FormulationSpec const& formulation : whole.formulations) {
-    std::size_t const body = shares.size();
-    shares.push_back(0);
+    std::size_t const body = fractions.size();
+    fractions.push_back(0);
     if (std::any_of(whole.mirrors.begin(), whole.mirrors.end(), [&](auto const& m) { return m.body == body; }))
       continue;
     auto const info = find_formulation(formulation.name);
     for (Parameter const& parameter : info ? info->parameters : std::span<Parameter const>{})
-      if (parameter.name == key) shares.back() = number_of(formulation, key, parameter.default_value);
+      if (parameter.name == key) fractions.back() = number_of(formulation, key, parameter.default_value);
   }
-  return shares;
+  return fractions;
 }
 
-}  // namespace
+std::vector<std::string> names_of(ParticleSet const& particles) {
+  std::vector<std::string> names;
+  for (Body const& body : particles.bodies) names.push_back(body.name);
+  return names;
+}
 
-ContactCoupling::ContactCoupling(Assembly const& whole, std::vector<FormulationGroup> const& parts)
-    : ContactCoupling(whole, MirroredAssembly(whole), parts) {}
-
-ContactCoupling::ContactCoupling(Assembly const& whole, MirroredAssembly const& continued,
-                                 std::vector<FormulationGroup> const& parts)
-    : dimension_(whole.particles.dimension),
-      shapes_(whole.rigid_shapes),
-      supports_(whole.supports),
-      system_(system_of(continued.assembly)),
-      motion_(motion_of(whole)),
-      actions_(whole.supports, whole.loads, whole.rigid_shapes),
-      ties_(continued.assembly, system_) {
+/// Colour contact of the run. Appends its particles to `contact_particles`.
+contact::ColourContact colour_contact_of(Assembly const& whole, ContactParticles& contact_particles) {
   PIOLA_EXPECTS(whole.materials.size() == whole.particles.bodies.size());
-  PIOLA_EXPECTS(dimension_ >= 1 && dimension_ <= 3);
-  for (Body const& body : whole.particles.bodies) names_.push_back(body.name);
-  motion_.place(system_.rigids());
-  for (std::size_t b = 0; b < continued.mirrors.size(); ++b) system_.set_mirrors(b, continued.mirrors[b]);
-  system_.damp_chatter(chatter_shares(whole));
-  find_particles(continued);
-  find_coloured(whole);
-  find_shares(parts);
-  held_.resize(run_ids_.size());
-  find_held(continued);
-  mass_.resize(run_ids_.size());
-  x_.resize(run_ids_.size());
-  v_.resize(run_ids_.size());
-  std::size_t const n = names_.size();
-  pair_impulses_.resize(n * n);
-}
-
-/// Finds the images in SurfaceContactSystem::ids() and their sources.
-void ContactCoupling::find_particles(MirroredAssembly const& continued) {
-  auto const& ids = system_.ids();
-  std::map<std::int64_t, Index> at;  // of the run's particles
-  for (std::size_t k = 0; k < ids.size(); ++k) {
-    MirroredAssembly::Origin const origin = continued.origin(ids[k]);
-    run_ids_.push_back(origin.image ? -1 : origin.id);
-    if (!origin.image) at.emplace_hint(at.end(), origin.id, static_cast<Index>(k));
-  }
-  for (std::size_t k = 0; k < ids.size(); ++k) {
-    MirroredAssembly::Origin const origin = continued.origin(ids[k]);
-    if (!origin.image) continue;
-    auto const source = at.find(origin.id);
-    PIOLA_EXPECTS(source != at.end());  // the host of a point has an image like the point
-    images_.push_back({static_cast<Index>(k), source->second, origin.sign, origin.shift});
-  }
-}
-
-void ContactCoupling::find_coloured(Assembly const& whole) {
   std::vector<contact::ColourContact::Pair> const pairs = coloured_pairs(whole);
-  if (pairs.empty()) return;
-  std::map<std::int64_t, Index> at;
-  for (std::size_t k = 0; k < run_ids_.size(); ++k)
-    if (run_ids_[k] >= 0) at.emplace(run_ids_[k], static_cast<Index>(k));
+  if (pairs.empty()) return {};
+  std::map<std::int64_t, Index> at = contact_particles.indices();
   ParticleSet const& particles = whole.particles;
   std::vector<contact::ColourContact::Body> bodies(particles.bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -195,56 +148,37 @@ void ContactCoupling::find_coloured(Assembly const& whole) {
     bodies[b].spacing = *std::max_element(body.spacing.begin(), body.spacing.begin() + particles.dimension);
     with_any_law(whole.materials[b], [&](auto const& law) { bodies[b].modulus = law.kappa + 4.0 / 3 * law.mu; });
     for (auto id = body.first; id < body.last; ++id) {
-      auto const [entry, fresh] = at.try_emplace(id, static_cast<Index>(run_ids_.size()));
-      if (fresh) run_ids_.push_back(id);
+      auto const [entry, fresh] = at.try_emplace(id, static_cast<Index>(contact_particles.count()));
+      if (fresh) contact_particles.append(id);
       bodies[b].at.push_back(entry->second);
       bodies[b].volume.push_back(particles.volume[static_cast<std::size_t>(id)]);
     }
   }
-  colours_ = contact::ColourContact(particles.dimension, std::move(bodies), pairs);
+  return {particles.dimension, std::move(bodies), pairs};
 }
 
-/// Which particle of which part is where.
-void ContactCoupling::find_shares(std::vector<FormulationGroup> const& parts) {
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    GroupParticles share{.part = p, .at = {}, .local = {}};
-    for (std::size_t k = 0; k < run_ids_.size(); ++k) {
-      auto const local = run_ids_[k] < 0 ? std::nullopt : parts[p].id_in_part(run_ids_[k]);
-      if (!local) continue;
-      share.at.push_back(static_cast<Index>(k));
-      share.local.push_back(*local);
-    }
-    shares_.push_back(std::move(share));
-  }
-}
+}  // namespace
 
-/// Finds the directions that supports hold of particles on surfaces, and mirror planes of particles on them. Supports
-/// of the surface itself are enforced by the formulation.
-void ContactCoupling::find_held(MirroredAssembly const& continued) {
-  std::map<std::int64_t, std::size_t> at;
-  for (std::size_t k = 0; k < run_ids_.size(); ++k)
-    if (run_ids_[k] >= 0) at.emplace(run_ids_[k], k);
-  for (MirroredAssembly::OnPlane const& on : continued.on_planes) {
-    Direction across{};
-    across[static_cast<std::size_t>(on.axis)] = 1;
-    if (auto const found = at.find(on.id); found != at.end())
-      held_[found->second].push_back({plane, across, std::numeric_limits<double>::infinity()});
-  }
-  for (std::size_t s = 0; s < supports_.size(); ++s) {
-    if (supports_[s].on_surface()) continue;
-    for (auto const id : supports_[s].particles) {
-      auto const found = at.find(id);
-      if (found == at.end()) continue;
-      auto& here = held_[found->second];
-      std::vector<Direction> known;
-      for (ConstrainedDirection const& held : here) known.push_back(held.direction);
-      for (Direction d : directions_of(supports_[s], dimension_)) {
-        if (!make_orthogonal(d, known)) continue;
-        known.push_back(d);
-        here.push_back({s, d, supports_[s].until});
-      }
-    }
-  }
+ContactCoupling::ContactCoupling(Assembly const& whole, std::vector<FormulationGroup> const& parts)
+    : ContactCoupling(whole, MirroredAssembly(whole), parts) {}
+
+ContactCoupling::ContactCoupling(Assembly const& whole, MirroredAssembly const& continued,
+                                 std::vector<FormulationGroup> const& parts)
+    : names_(names_of(whole.particles)),
+      shapes_(whole.rigid_shapes),
+      system_(system_of(continued.assembly)),
+      motion_(motion_of(whole)),
+      ties_(continued.assembly, system_),
+      particles_(continued, system_.ids()),
+      colours_(colour_contact_of(whole, particles_)),
+      held_(continued, whole, particles_.indices(), particles_.count()),
+      actions_(whole.supports, whole.loads, whole.rigid_shapes),
+      pair_impulses_(names_.size()) {
+  PIOLA_EXPECTS(whole.particles.dimension >= 1 && whole.particles.dimension <= 3);
+  motion_.place(system_.rigids());
+  for (std::size_t b = 0; b < continued.mirrors.size(); ++b) system_.set_mirrors(b, continued.mirrors[b]);
+  system_.damp_chatter(chatter_fractions(whole));
+  particles_.assign(parts);
 }
 
 }  // namespace piola

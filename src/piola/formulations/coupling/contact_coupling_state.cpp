@@ -12,7 +12,7 @@ void ContactCoupling::save(StateWriter& writer) const {
   std::vector<double> rigid{work_, last_dt_, friction_work_, chatter_loss_};
   for (std::size_t r = 0; r < shapes_.size(); ++r)
     for (Vec<3> const& a : {system_.rigid(r).centre, system_.rigid(r).velocity}) contact::put(rigid, a);
-  for (auto const& pair : pair_impulses_)
+  for (auto const& pair : pair_impulses_.all())
     for (Vec<3> const& a : {pair.force, pair.moment}) contact::put(rigid, a);
   writer.put("contact", rigid);
   writer.put("contact_actions", actions_.state());
@@ -24,7 +24,7 @@ void ContactCoupling::save(StateWriter& writer) const {
 }
 
 void ContactCoupling::load(StateReader& reader) {
-  std::vector<double> rigid(4 + 6 * (shapes_.size() + pair_impulses_.size()));
+  std::vector<double> rigid(4 + 6 * (shapes_.size() + pair_impulses_.all().size()));
   reader.get("contact", rigid);
   contact::StateVector from(rigid);
   for (double* number : {&work_, &last_dt_, &friction_work_, &chatter_loss_}) *number = from.next();
@@ -32,7 +32,7 @@ void ContactCoupling::load(StateReader& reader) {
     from.take(system_.rigid(r).centre);
     from.take(system_.rigid(r).velocity);
   }
-  for (auto& pair : pair_impulses_) {
+  for (auto& pair : pair_impulses_.all()) {
     from.take(pair.force);
     from.take(pair.moment);
   }

@@ -38,8 +38,8 @@ void TieCoupling::exclude_pair(contact::SurfaceContactSystem& system, std::size_
   system.exclude_pair(hold.body, hold.point, hold.other, out);
 }
 
-void TieCoupling::look(contact::SurfaceContactSystem& system, std::vector<Vec<3>> const& x,
-                       std::vector<double> const& masses) {
+void TieCoupling::start(contact::SurfaceContactSystem& system, std::vector<Vec<3>> const& x,
+                        std::vector<double> const& masses) {
   PIOLA_EXPECTS(x.size() == masses.size());
   if (!any()) return;
   std::vector<double> inverse;

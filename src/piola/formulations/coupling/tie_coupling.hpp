@@ -16,7 +16,7 @@ class TieCoupling {
 
   /// Evaluates the forces of the current state: before the first step and after loading a checkpoint. x [m] and masses
   /// [kg] by index into SurfaceContactSystem::ids().
-  void look(contact::SurfaceContactSystem& system, std::vector<Vec<3>> const& x, std::vector<double> const& masses);
+  void start(contact::SurfaceContactSystem& system, std::vector<Vec<3>> const& x, std::vector<double> const& masses);
   void evaluate(contact::SurfaceContactSystem& system, std::vector<Vec<3>> const& x);  ///< also sets the tie forces on
                                                                                        ///< rigid shapes in `system`
   /// Accounts for the energy that contact stores at points whose tie has just failed, as supplied by the ties. Call

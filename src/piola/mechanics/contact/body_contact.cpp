@@ -9,7 +9,6 @@
 namespace piola::contact {
 namespace {
 
-constexpr double closing = 0.1;  // of a spacing in a step
 /// Opposing normals have a negative product; until lists are rebuilt they rotate by no more than this margin allows.
 constexpr double facing = 0.8;
 
@@ -171,7 +170,7 @@ double BodyContact::contact_time_step(ContactModel const& model, std::vector<Vec
       Plane const &a = points.plane(range.target), &b = points.plane(sources_[s]);
       if (!(dot(a.n, b.n) < 0) || !(square_of(a.y - b.y) < rule.reach * rule.reach)) continue;
       double const speed = -dot(v[at(points.particle(range.target))] - v[at(points.particle(sources_[s]))], b.n);
-      if (speed > 0) step = std::min(step, closing * 2 * rule.length / speed);
+      if (speed > 0) step = std::min(step, approach_in_a_step * 2 * rule.length / speed);
     }
   }
   return step;

@@ -23,22 +23,22 @@ void for_members(HostParticles const& hosts, Index host, F const& f) {
 }  // namespace
 
 ChatterDamping::ChatterDamping(HostParticles const& hosts, std::vector<Surface> const& surfaces,
-                               std::vector<double> const& shares, int dimension)
+                               std::vector<double> const& fractions, int dimension)
     : impulses_(hosts.ids().size()), is_damped_(hosts.ids().size()) {
   PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
-  PIOLA_EXPECTS(shares.size() == surfaces.size());
+  PIOLA_EXPECTS(fractions.size() == surfaces.size());
   std::vector<double> around(hosts.ids().size());
   for (Index k = 0; k < hosts.count(); ++k) for_members(hosts, k, [&](std::size_t i) { around[i] += 1; });
   std::vector<char> known(at(hosts.count()));
   for (std::size_t b = 0; b < surfaces.size(); ++b)
     for (std::size_t p = 0; p < surfaces[b].points.size(); ++p) {
       Index const host = hosts.of(b, p);
-      if (!(shares[b] > 0) || known[at(host)] != 0) continue;
+      if (!(fractions[b] > 0) || known[at(host)] != 0) continue;
       known[at(host)] = 1;
       double most = 1;
       for_members(hosts, host, [&](std::size_t i) { most = std::max(most, around[i]); });
       clusters_.push_back(
-          {host, surfaces[b].modulus * std::pow(surfaces[b].spacing, dimension - 2), shares[b], 1 / most});
+          {host, surfaces[b].modulus * std::pow(surfaces[b].spacing, dimension - 2), fractions[b], 1 / most});
     }
 }
 
@@ -74,7 +74,7 @@ ChatterDamping::Motion ChatterDamping::motion_of(Cluster const& cluster, HostPar
   double const own = now.inverse_masses[at(hosts.self(cluster.host))];
   double const factor = cluster.weight * -std::expm1(-rate * std::sqrt(cluster.stiffness * own) * now.dt);
   // A factor takes at most itself times this energy.
-  double const allowed = cluster.share * now.heat[at(cluster.host)];
+  double const allowed = cluster.fraction * now.heat[at(cluster.host)];
   motion.factor = factor * energy > allowed ? allowed / energy : factor;
   return motion;
 }
@@ -88,16 +88,16 @@ void ChatterDamping::evaluate(HostParticles const& hosts, State const& now) {
     is_damped_[at(i)] = 0;
   }
   damped_.clear();
-  rubbing_.clear();
+  sliding_.clear();
   for (std::size_t k = 0; k < clusters_.size(); ++k)
-    if (now.heat[at(clusters_[k].host)] > 0) rubbing_.push_back(static_cast<Index>(k));
-  motions_.resize(rubbing_.size());
-  exec_host::parallel_for(static_cast<Index>(rubbing_.size()),
-                          [&](Index k) { motions_[at(k)] = motion_of(clusters_[at(rubbing_[at(k)])], hosts, now); });
-  for (std::size_t k = 0; k < rubbing_.size(); ++k) {
+    if (now.heat[at(clusters_[k].host)] > 0) sliding_.push_back(static_cast<Index>(k));
+  motions_.resize(sliding_.size());
+  exec_host::parallel_for(static_cast<Index>(sliding_.size()),
+                          [&](Index k) { motions_[at(k)] = motion_of(clusters_[at(sliding_[at(k)])], hosts, now); });
+  for (std::size_t k = 0; k < sliding_.size(); ++k) {
     Motion const& motion = motions_[k];
     if (!(motion.factor > 0)) continue;
-    for_members(hosts, clusters_[at(rubbing_[k])].host, [&](std::size_t i) {
+    for_members(hosts, clusters_[at(sliding_[k])].host, [&](std::size_t i) {
       if (is_damped_[i] == 0) damped_.push_back(static_cast<Index>(i));
       is_damped_[i] = 1;
       Vec<3> const rest = now.v[i] - motion.velocity - cross(motion.spin, now.x[i] - motion.centre);

@@ -12,8 +12,8 @@ namespace piola::contact {
 class ChatterDamping {
  public:
   ChatterDamping() = default;
-  /// shares: by body, largest fraction of the friction heat that is dissipated; 0: no damping.
-  ChatterDamping(HostParticles const& hosts, std::vector<Surface> const& surfaces, std::vector<double> const& shares,
+  /// fractions: by body, largest fraction of the friction heat that is dissipated; 0: no damping.
+  ChatterDamping(HostParticles const& hosts, std::vector<Surface> const& surfaces, std::vector<double> const& fractions,
                  int dimension);
   bool any() const { return !clusters_.empty(); }
 
@@ -33,7 +33,7 @@ class ChatterDamping {
   struct Cluster {
     Index host;
     double stiffness;  ///< M dp^(D-2); divided by the mass of a particle: the square of c/dp [N/m]
-    double share;      ///< fraction of the heat
+    double fraction;   ///< fraction of the heat
     double weight;     ///< the weights of all clusters around a particle sum to at most 1
   };
   struct Motion {
@@ -43,7 +43,7 @@ class ChatterDamping {
   Motion motion_of(Cluster const& cluster, HostParticles const& hosts, State const& now) const;
 
   std::vector<Cluster> clusters_;
-  std::vector<Index> rubbing_;
+  std::vector<Index> sliding_;  ///< clusters with friction heat in the step
   std::vector<Motion> motions_;
   std::vector<Vec<3>> impulses_;
   std::vector<char> is_damped_;

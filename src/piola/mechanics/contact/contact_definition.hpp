@@ -11,6 +11,8 @@ namespace piola::contact {
 
 /// Search distance: gaps below this number of spacings limit the step.
 inline constexpr double near = 0.25;
+/// Approach of two surfaces that bounds a step, in spacings.
+inline constexpr double approach_in_a_step = 0.1;
 
 /// Contact setting between a body and another one, itself, or a rigid shape.
 struct PairSetting {

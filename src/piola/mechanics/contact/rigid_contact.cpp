@@ -6,8 +6,6 @@
 namespace piola::contact {
 namespace {
 
-constexpr double closing = 0.1;  // of a spacing in a step
-
 /// Stiffness of the layer between a point and a rigid shape [Pa/m].
 double layer_stiffness(ContactModel const& model, Index point, std::size_t rigid) {
   Surface const& surface = model.points.surface_of(point);
@@ -91,7 +89,7 @@ double RigidContact::contact_time_step(ContactModel const& model, std::vector<Ve
       double const spacing = points.surface_of(k).spacing;
       if (!(d.value < near * spacing)) continue;
       double const speed = -dot(v[at(points.particle(k))] - model.rigids[r].velocity_at(points.plane(k).y), d.normal);
-      if (speed > 0) step = std::min(step, closing * spacing / speed);
+      if (speed > 0) step = std::min(step, approach_in_a_step * spacing / speed);
     }
   return step;
 }

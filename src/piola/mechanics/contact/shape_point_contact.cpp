@@ -9,8 +9,7 @@
 namespace piola::contact {
 namespace {
 
-constexpr double closing_in_a_step = 0.1;  // of a spacing
-constexpr double on_mirror = 1e-9;         // of a spacing
+constexpr double on_mirror = 1e-9;  // of a spacing
 
 /// Points of a shape that may be near the points of a body.
 std::vector<ShapePoint> shape_points_near(ContactModel const& model, ShapePass const& pass,
@@ -179,7 +178,7 @@ double ShapePointContact::contact_time_step(ContactModel const& model, std::vect
     for (std::size_t s = range.first; s < range.last; ++s) {
       if (!(weights_[s] > 0)) continue;
       double const speed = dot(v[at(points.particle(sources_[s]))] - own, points.plane(sources_[s]).n);
-      if (speed > 0) step = std::min(step, closing_in_a_step * dp / speed);
+      if (speed > 0) step = std::min(step, approach_in_a_step * dp / speed);
     }
   }
   return step;

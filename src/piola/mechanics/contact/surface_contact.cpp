@@ -20,6 +20,7 @@ void SurfaceContactSystem::exclude_pair(std::size_t body, std::size_t point, std
 }
 
 void SurfaceContactSystem::drop(std::vector<char> const& lost) {
+  if (lost.empty()) return;
   PIOLA_EXPECTS(lost.size() == ids().size());
   for (Index k = 0; k < model_.points.count(); ++k)
     if (lost[at(model_.points.particle(k))] != 0) model_.definition.remove(k);

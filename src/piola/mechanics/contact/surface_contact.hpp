@@ -30,8 +30,8 @@ class SurfaceContactSystem {
   /// Excludes the contact of this surface point with body `other`, or includes it again. Rigid shapes are numbered
   /// after the bodies.
   void exclude_pair(std::size_t body, std::size_t point, std::size_t other, bool out);
-  /// Removes the points of particles that have lost their surface permanently, by index into ids(). Not in state():
-  /// call before restore() again.
+  /// Removes the points of particles that have lost their surface permanently, by index into ids(); empty: none. Not in
+  /// state(): call before restore() again.
   void drop(std::vector<char> const& lost);
   /// Energy stored by the contact of this point with `other` [J].
   double stored_at(std::size_t body, std::size_t point, std::size_t other) const;
