@@ -35,7 +35,7 @@ expect 2 "there is one folder only" "$program" render bar-results --side-by-side
 expect 2 "the case of the run has none" "$program" render bar-results --panels
 expect 0 "drawn" "$program" render bar-results --last --quality high --warp 3 --supports --size 300 240
 expect 0 "drawn" "$program" render bar-results --last --roll 4.5 --map grey --no-outline --no-labels --size 300 240
-expect 2 "400 not in range -360 to 360" "$program" render bar-results --roll 400
+expect 2 "400 not in range -360" "$program" render bar-results --roll 400
 expect 2 "rainbow not in" "$program" render bar-results --map rainbow
 expect 2 "excludes" "$program" render bar-results --panels --field Velocity
 expect 2 "'above' is not known" "$program" render bar-results --view above
