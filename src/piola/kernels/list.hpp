@@ -4,7 +4,6 @@
 #include "piola/kernels/quartic_spline.hpp"
 #include "piola/kernels/quintic_spline.hpp"
 #include "piola/kernels/registry.hpp"
-#include "piola/kernels/trial_kernel.hpp"
 #include "piola/kernels/wendland_c2.hpp"
 #include "piola/kernels/wendland_c4.hpp"
 #include <array>
@@ -18,7 +17,7 @@ struct KernelList {
 };
 
 /// All kernels: adding one is its header and its name here. The first is the usual one.
-using Kernels = KernelList<CubicSpline, QuarticSpline, QuinticSpline, WendlandC2, WendlandC4, TrialKernel>;
+using Kernels = KernelList<CubicSpline, QuarticSpline, QuinticSpline, WendlandC2, WendlandC4>;
 /// Kernels that loops over moving neighbours can evaluate, lane by lane.
 using LaneKernels = KernelList<CubicSpline, WendlandC2>;
 
