@@ -5,7 +5,6 @@
 #include "piola/materials/hyperelastic/mooney_rivlin.hpp"
 #include "piola/materials/hyperelastic/neo_hookean.hpp"
 #include "piola/materials/hyperelastic/saint_venant_kirchhoff.hpp"
-#include "piola/materials/hyperelastic/trial_law.hpp"
 #include "piola/materials/registry.hpp"
 #include <concepts>
 
@@ -54,7 +53,7 @@ struct LawList {
 };
 
 /// The registered laws. Adding one: its header and one name here; its battery of tests is automatic.
-using Laws = LawList<LinearElastic, NeoHookean, MooneyRivlin, SaintVenantKirchhoff, CompressibleNeoHookean, TrialLaw>;
+using Laws = LawList<LinearElastic, NeoHookean, MooneyRivlin, SaintVenantKirchhoff, CompressibleNeoHookean>;
 
 template <class F, class... Law>
 void with_law(MaterialParameters const& material, F const& f, LawList<Law...>) {
