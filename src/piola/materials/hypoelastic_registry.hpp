@@ -8,7 +8,6 @@
 #include "piola/materials/plastic/none.hpp"
 #include "piola/materials/plastic/perfect.hpp"
 #include "piola/materials/plastic/steinberg_guinan.hpp"
-#include "piola/materials/plastic/trial_strength.hpp"
 #include "piola/materials/plastic/zerilli_armstrong.hpp"
 #include <array>
 
@@ -66,7 +65,7 @@ struct StrengthList {
   static constexpr int size = sizeof...(Strength);
 };
 using Strengths = StrengthList<NoPlasticity, PerfectPlasticity, IsotropicHardening, JohnsonCook, ZerilliArmstrong,
-                               JohnsonHolmquist, SteinbergGuinan, TrialStrength>;
+                               JohnsonHolmquist, SteinbergGuinan>;
 
 /// Whether the material is a solid in rate form.
 inline bool is_hypoelastic(MaterialParameters const& material) {
