@@ -5,7 +5,6 @@
 #include "piola/materials/eos/mie_grueneisen.hpp"
 #include "piola/materials/eos/polynomial.hpp"
 #include "piola/materials/eos/stiffened_gas.hpp"
-#include "piola/materials/eos/trial_eos.hpp"
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -22,7 +21,7 @@ struct EosList {
 
 /// All equations of state, in the order of their numbers in MaterialParameters::word and of their parameters. Adding
 /// one: its header and one name here.
-using EquationsOfState = EosList<ElasticEos, StiffenedGas, MieGrueneisen, PolynomialEos, JwlEos, TrialEos>;
+using EquationsOfState = EosList<ElasticEos, StiffenedGas, MieGrueneisen, PolynomialEos, JwlEos>;
 
 /// Whether the equation of state is that of an explosive, which a front burns.
 template <class Eos> concept Explosive = requires(Eos const& eos) { eos.front_speed; };
