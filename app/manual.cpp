@@ -9,7 +9,6 @@
 #include "piola/input/material_library.hpp"
 #include "piola/kernels/registry.hpp"
 #include "piola/materials/registry.hpp"
-#include "piola/materials/validity.hpp"
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
@@ -100,7 +99,7 @@ std::string describe_law(LawInfo const& law, Layout layout) {
   for (Choice const& choice : law.choices) rows.push_back(row_of(choice, layout));
   for (Parameter const& parameter : law.parameters) rows.push_back(row_of(parameter, false, layout));
   std::string const indent = layout == Layout::markdown ? "" : "  ";
-  std::string valid(validity_of_law(law.name));
+  std::string valid(law.validity);
   if (!valid.empty()) valid = (layout == Layout::markdown ? "\n" : "") + indent + "Valid for " + valid + ".\n";
   return title(layout == Layout::markdown ? "law = \"" + std::string(law.name) + "\"" : std::string(law.name), 3,
                layout) +

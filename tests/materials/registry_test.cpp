@@ -3,6 +3,7 @@
 #include "piola/materials/hypoelastic_registry.hpp"
 #include <gtest/gtest.h>
 #include <string_view>
+#include <vector>
 
 namespace piola {
 namespace {
@@ -17,6 +18,29 @@ TEST(Laws, AreFoundByTheirNamesAndNumberedInOrder) {
   }
   EXPECT_EQ(index, Laws::size + Strengths::size);
   EXPECT_FALSE(find_law("no_such_law").has_value());
+}
+
+TEST(Laws, AreSelectedByWhatTheyCanDo) {
+  using Names = std::vector<std::string_view>;
+  EXPECT_EQ(laws_that([](LawInfo const& law) { return law.elastic_rate; }), Names{"linear_elastic"});
+  EXPECT_EQ(laws_that([](LawInfo const& law) { return law.brittle; }), Names{"johnson_holmquist"});
+  auto const solids = laws_that([](LawInfo const& law) { return law.rate_form; });
+  ASSERT_EQ(solids.size(), static_cast<std::size_t>(Strengths::size));
+  EXPECT_EQ(solids.front(), "elastic") << "in the order of the registry";
+}
+
+TEST(EquationsOfState, ShareAParameterThatBothHave) {
+  Parameter const& speed = eos_parameters[eos_places<MieGrueneisen>[0]];
+  EXPECT_EQ(speed.name, "bulk_sound_speed");
+  EXPECT_EQ(eos_places<StiffenedGas>[0], eos_places<MieGrueneisen>[0]);
+  EXPECT_TRUE(speed.when.holds(StiffenedGas::name) && speed.when.holds(MieGrueneisen::name));
+  EXPECT_FALSE(speed.when.holds(PolynomialEos::name));
+}
+
+TEST(EquationsOfState, GoWithTheirStrengths) {
+  EXPECT_EQ(EquationsFor<NoPlasticity>::List::words.back(), "jwl");
+  EXPECT_EQ(EquationsFor<JohnsonCook>::List::words.back(), "polynomial") << "metals are no explosives";
+  EXPECT_EQ(EquationsFor<JohnsonHolmquist>::List::words.size(), 1u);
 }
 
 TEST(Laws, AreEachPickedByTheirNumber) {

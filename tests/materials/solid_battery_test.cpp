@@ -25,20 +25,14 @@ SymMat<3> plus(SymMat<3> a, double s, SymMat<3> const& b) {
   return a;
 }
 
-std::string_view word_of(ElasticEos const*) { return "elastic"; }
-std::string_view word_of(StiffenedGas const*) { return "stiffened_gas"; }
-std::string_view word_of(MieGrueneisen const*) { return "mie_grueneisen"; }
-std::string_view word_of(PolynomialEos const*) { return "polynomial"; }
-
 template <class Case>
 class SolidBattery : public ::testing::Test {
  protected:
   using Strength = typename Case::strength;
   using Eos = typename Case::eos;
   static constexpr bool yields = Strength::yields;
-  static std::string_view eos() { return word_of(static_cast<Eos const*>(nullptr)); }
   static Solid<Strength, Eos> made(std::string_view damage = "none", double spall = unbounded) {
-    return Solid<Strength, Eos>(sample_metal(Strength::name, eos(), yields ? damage : "none", spall));
+    return Solid<Strength, Eos>(sample_metal(Strength::name, Eos::name, yields ? damage : "none", spall));
   }
   Solid<Strength, Eos> const solid = made();
 };
@@ -46,8 +40,7 @@ class SolidBattery : public ::testing::Test {
 struct CaseNames {
   template <class Case>
   static std::string GetName(int) {
-    return std::string(Case::strength::name) + "_" +
-           std::string(word_of(static_cast<typename Case::eos const*>(nullptr)));
+    return std::string(Case::strength::name) + "_" + std::string(Case::eos::name);
   }
 };
 

@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/materials/eos/elastic.hpp"
-#include "piola/materials/eos/jwl.hpp"
-#include "piola/materials/eos/mie_grueneisen.hpp"
-#include "piola/materials/eos/polynomial.hpp"
-#include "piola/materials/eos/stiffened_gas.hpp"
 #include "piola/materials/hypoelastic_solid.hpp"
 #include "piola/materials/laws.hpp"
 #include "piola/materials/plastic/isotropic_hardening.hpp"
@@ -18,43 +13,21 @@
 
 namespace piola::inline PIOLA_BACKEND {
 
-template <class... Eos>
-struct EosList {
-  static constexpr std::size_t size = sizeof...(Eos);
-};
-
-/// The equations of state available with a strength, in the order of `words`. Metals: those of solids.
+/// The equations of state and the words of `damage` available with a strength. A strength that is brittle brings its
+/// own damage.
 template <class Strength>
 struct EquationsFor {
-  using List = EosList<ElasticEos, StiffenedGas, MieGrueneisen, PolynomialEos>;
-  static constexpr std::span<std::string_view const> words{eos_words.data(), List::size};
-  static constexpr std::span<std::string_view const> damage{damage_words};
-};
-/// Equations of state for strengths that may vanish (no or perfect plasticity): includes JWL, so the material may be an
-/// explosive.
-struct EquationsOfFluids {
-  using List = EosList<ElasticEos, StiffenedGas, MieGrueneisen, PolynomialEos, JwlEos>;
-  static constexpr std::span<std::string_view const> words{eos_words};
-  static constexpr std::span<std::string_view const> damage{damage_words};
-};
-template <>
-struct EquationsFor<NoPlasticity> : EquationsOfFluids {};
-template <>
-struct EquationsFor<PerfectPlasticity> : EquationsOfFluids {};
-/// The second model of Johnson and Holmquist combines a strength, a polynomial and a damage.
-template <>
-struct EquationsFor<JohnsonHolmquist> {
-  using List = EosList<PolynomialEos>;
-  static constexpr std::span<std::string_view const> words{eos_words.data() + 3, 1};
-  static constexpr std::array<std::string_view, 1> own{JohnsonHolmquist::name};
-  static constexpr std::span<std::string_view const> damage{own};
+  using List = decltype(equations_with<Strength>(EquationsOfState{}));
+  static constexpr std::array own_damage{Strength::name};
+  static constexpr std::span<std::string_view const> damage{Strength::brittle ? own_damage.data() : damage_words.data(),
+                                                            Strength::brittle ? 1 : damage_words.size()};
 };
 
 /// A law of a solid in the registry: a strength with its equations of state.
 template <class Strength>
 struct SolidLaw {
   static constexpr std::array<Choice, 3> all_choices{
-      Choice{"eos", "equation of state: pressure by density and energy", EquationsFor<Strength>::words},
+      Choice{"eos", "equation of state: pressure by density and energy", EquationsFor<Strength>::List::words},
       Choice{"damage", "growth of damage with plastic strain", EquationsFor<Strength>::damage},
       Choice{"spall",
              "what follows from tension at spall_pressure; limit: the pressure goes no lower, nothing opens; "
@@ -74,7 +47,7 @@ struct SolidLaw {
     append(ElasticConstants::parameters);
     append(Strength::parameters);
     if (Strength::yields) append(Heat::parameters_for(Strength::homologous));
-    append(EosValues::parameters);
+    append(eos_parameters);
     if (Strength::yields) append(JohnsonCookDamage::parameters);
     append(std::array{Parameter{"spall_pressure", "Pa", "spall strength: largest tension the material carries",
                                 positive, unbounded, "no limit"}});

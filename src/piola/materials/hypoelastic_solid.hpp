@@ -3,7 +3,7 @@
 #include "piola/materials/damage/johnson_cook.hpp"
 #include "piola/materials/damage/scatter.hpp"
 #include "piola/materials/elastic_constants.hpp"
-#include "piola/materials/eos/values.hpp"
+#include "piola/materials/eos/list.hpp"
 #include "piola/materials/plastic/adiabatic_heating.hpp"
 #include "piola/materials/registry.hpp"
 #include "piola/math/symmetric_eigen.hpp"
@@ -37,7 +37,7 @@ struct SolidLayout {
   static constexpr int strength = static_cast<int>(ElasticConstants::parameters.size());
   static constexpr int heat = strength + static_cast<int>(Strength::parameters.size());
   static constexpr int eos = heat + (Strength::yields ? Heat::size : 0);
-  static constexpr int damage = eos + static_cast<int>(EosValues::parameters.size());
+  static constexpr int damage = eos + static_cast<int>(eos_parameters.size());
   static constexpr int spall = damage + (Strength::yields ? static_cast<int>(JohnsonCookDamage::parameters.size()) : 0);
   static constexpr int scatter = spall + 1;
   static constexpr int size = scatter + (Strength::yields ? Scatter::size : 0);
@@ -213,7 +213,7 @@ class Solid {
         spall_(Strength::yields ? m.word[Layout::spall_word] : 0),
         heat_(heat),
         strength_(m.value + Layout::strength, heat),
-        eos_(EosValues(elastic.rho0, elastic.kappa, m.value + Layout::eos)),
+        eos_(make_eos<Eos>(elastic.rho0, elastic.kappa, m.value + Layout::eos)),
         damage_(m.value + Layout::damage, heat) {
     kappa = eos_.bulk_modulus();
     damages = wears_ || spall_ > 0;

@@ -15,6 +15,7 @@ constexpr auto table(LawList<Law...>, StrengthList<Strength...>) {
   int index = 0;
   return std::array{LawInfo{.name = Law::name,
                             .about = Law::about,
+                            .validity = Law::validity,
                             .parameters = Law::parameters,
                             .volumetric_split = Law::volumetric_split,
                             .elastic_rate = RateForm<Law>,

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/base/backend.hpp"
-#include "piola/materials/eos/values.hpp"
+#include "piola/base/parameter.hpp"
 #include "piola/math/lanes.hpp"
+#include <array>
+#include <string_view>
 #include <type_traits>
 
 namespace piola::inline PIOLA_BACKEND {
@@ -10,7 +12,10 @@ namespace piola::inline PIOLA_BACKEND {
 /// Pressure that is linear in the density and independent of energy: p = K (rho/rho0 - 1).
 class ElasticEos {
  public:
-  PIOLA_FN explicit ElasticEos(EosValues const& values) : rho0_(values.rho0), kappa_(values.kappa) {}
+  static constexpr std::string_view name = "elastic";
+  static constexpr std::array<Parameter, 0> parameters{};
+
+  PIOLA_FN ElasticEos(double density, double bulk_modulus, double const*) : rho0_(density), kappa_(bulk_modulus) {}
   /// Pressure, positive in compression [Pa]. rho: density [kg/m^3], e: specific energy [J/kg].
   template <class V = double>
   PIOLA_FN V pressure(std::type_identity_t<V> const& rho, std::type_identity_t<V> const&) const {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/base/backend.hpp"
-#include "piola/materials/eos/values.hpp"
+#include "piola/base/parameter.hpp"
 #include "piola/math/lanes.hpp"
+#include <array>
 #include <cmath>
+#include <string_view>
 #include <type_traits>
 
 namespace piola::inline PIOLA_BACKEND {
@@ -14,15 +16,26 @@ namespace piola::inline PIOLA_BACKEND {
 /// Partly burnt explosive has a fraction of this pressure (SolidHistory::burnt).
 class JwlEos {
  public:
-  PIOLA_FN explicit JwlEos(EosValues const& values)
-      : initial_energy(values.detonation / values.rho0),
-        front_speed(values.front),
-        rho0_(values.rho0),
-        a_(values.a),
-        b_(values.b),
-        r1_(values.r1),
-        r2_(values.r2),
-        omega_(values.omega) {}
+  static constexpr std::string_view name = "jwl";
+  static constexpr std::array parameters{
+      Parameter{"jwl_a", "Pa", "A of the gases of an explosive", positive},
+      Parameter{"jwl_b", "Pa", "B of the gases of an explosive", any_value},
+      Parameter{"jwl_r1", "1", "R1, times the volume ratio, in the exponent of A", positive},
+      Parameter{"jwl_r2", "1", "R2, times the volume ratio, in the exponent of B", positive},
+      Parameter{"jwl_omega", "1", "omega, Grueneisen's gamma of the gases", positive},
+      Parameter{"detonation_energy", "J/m^3", "E0, energy per volume of the explosive, which its gases start with",
+                positive},
+      Parameter{"detonation_speed", "m/s", "speed of the detonation front", positive}};
+
+  PIOLA_FN JwlEos(double density, double, double const* v)
+      : initial_energy(v[5] / density),
+        front_speed(v[6]),
+        rho0_(density),
+        a_(v[0]),
+        b_(v[1]),
+        r1_(v[2]),
+        r2_(v[3]),
+        omega_(v[4]) {}
 
   double initial_energy;  ///< [J/kg]
   double front_speed;     ///< of the detonation [m/s]

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/base/backend.hpp"
-#include "piola/materials/eos/values.hpp"
+#include "piola/materials/eos/bulk_sound_speed.hpp"
 #include "piola/math/lanes.hpp"
+#include <array>
+#include <string_view>
 #include <type_traits>
 
 namespace piola::inline PIOLA_BACKEND {
@@ -16,14 +18,19 @@ namespace piola::inline PIOLA_BACKEND {
 /// longer a stiffening curve (D < 1/5, or slope below a quarter of the one at rest) it goes on along its tangent.
 class MieGrueneisen {
  public:
-  PIOLA_FN explicit MieGrueneisen(EosValues const& values)
-      : rho0_(values.rho0),
-        kappa_(values.rho0 * values.c0 * values.c0),
-        g_(values.gamma),
-        a_(values.slope),
-        s1_(values.s1),
-        s2_(values.s2),
-        s3_(values.s3) {
+  static constexpr std::string_view name = "mie_grueneisen";
+  static constexpr std::array parameters{
+      bulk_sound_speed_parameter,
+      Parameter{"grueneisen_gamma", "1", "Grueneisen's gamma0 at rest", not_negative},
+      Parameter{"grueneisen_slope", "1", "a, change of gamma0 with rho/rho0 - 1", any_value, 0},
+      Parameter{"hugoniot_s1", "1", "s1, slope of shock speed over particle speed", not_negative},
+      Parameter{"hugoniot_s2", "1", "s2, quadratic coefficient of the shock speed", any_value, 0},
+      Parameter{"hugoniot_s3", "1", "s3, cubic coefficient of the shock speed", any_value, 0}};
+
+  PIOLA_FN MieGrueneisen(double density, double bulk_modulus, double const* v)
+      : rho0_(density), g_(v[1]), a_(v[2]), s1_(v[3]), s2_(v[4]), s3_(v[5]) {
+    double const c0 = bulk_sound_speed(v[0], density, bulk_modulus);
+    kappa_ = density * c0 * c0;
     constexpr double step = 1.0 / 128;
     while (last_ < most && divisor(last_ + step).value > 0.2 && fit(last_ + step).slope > kappa_ / 4) last_ += step;
     end_ = fit(last_);

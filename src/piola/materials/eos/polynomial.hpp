@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/base/backend.hpp"
-#include "piola/materials/eos/values.hpp"
+#include "piola/base/parameter.hpp"
 #include "piola/math/lanes.hpp"
+#include <array>
+#include <string_view>
 #include <type_traits>
 
 namespace piola::inline PIOLA_BACKEND {
@@ -14,14 +16,17 @@ namespace piola::inline PIOLA_BACKEND {
 /// LS-DYNA drops C2 and C6 in tension; here C3 too, so that tension is linear as in Mie-Grueneisen.
 class PolynomialEos {
  public:
-  PIOLA_FN explicit PolynomialEos(EosValues const& values)
-      : rho0_(values.rho0),
-        c1_(values.c1),
-        c2_(values.c2),
-        c3_(values.c3),
-        c4_(values.c4),
-        c5_(values.c5),
-        c6_(values.c6) {}
+  static constexpr std::string_view name = "polynomial";
+  static constexpr std::array parameters{
+      Parameter{"c1", "Pa", "C1 of the polynomial, the bulk modulus", positive, 0, "K of E and nu"},
+      Parameter{"c2", "Pa", "C2 of the polynomial", any_value, 0},
+      Parameter{"c3", "Pa", "C3 of the polynomial", any_value, 0},
+      Parameter{"c4", "1", "C4 of the polynomial, times the energy", any_value, 0},
+      Parameter{"c5", "1", "C5 of the polynomial, times the energy", any_value, 0},
+      Parameter{"c6", "1", "C6 of the polynomial, times the energy", any_value, 0}};
+
+  PIOLA_FN PolynomialEos(double density, double bulk_modulus, double const* v)
+      : rho0_(density), c1_(v[0] > 0 ? v[0] : bulk_modulus), c2_(v[1]), c3_(v[2]), c4_(v[3]), c5_(v[4]), c6_(v[5]) {}
   /// Pressure, positive in compression [Pa]. rho: density [kg/m^3], e: specific energy [J/kg].
   template <class V = double>
   PIOLA_FN V pressure(std::type_identity_t<V> const& rho, std::type_identity_t<V> const& e) const {

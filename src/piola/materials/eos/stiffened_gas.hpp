@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/base/backend.hpp"
-#include "piola/materials/eos/values.hpp"
+#include "piola/materials/eos/bulk_sound_speed.hpp"
 #include "piola/math/lanes.hpp"
+#include <array>
+#include <string_view>
 #include <type_traits>
 
 namespace piola::inline PIOLA_BACKEND {
@@ -11,8 +13,15 @@ namespace piola::inline PIOLA_BACKEND {
 /// 192, 2021, eq. 17).
 class StiffenedGas {
  public:
-  PIOLA_FN explicit StiffenedGas(EosValues const& values)
-      : rho0_(values.rho0), c0_squared_(values.c0 * values.c0), g_(values.exponent - 1) {}
+  static constexpr std::string_view name = "stiffened_gas";
+  static constexpr std::array parameters{
+      bulk_sound_speed_parameter,
+      Parameter{"adiabatic_exponent", "1", "gamma0 of the stiffened gas", Interval{1, unbounded, false, true}}};
+
+  PIOLA_FN StiffenedGas(double density, double bulk_modulus, double const* v) : rho0_(density), g_(v[1] - 1) {
+    double const c0 = bulk_sound_speed(v[0], density, bulk_modulus);
+    c0_squared_ = c0 * c0;
+  }
   /// Pressure, positive in compression [Pa]. rho: density [kg/m^3], e: specific energy [J/kg].
   template <class V = double>
   PIOLA_FN V pressure(std::type_identity_t<V> const& rho, std::type_identity_t<V> const& e) const {

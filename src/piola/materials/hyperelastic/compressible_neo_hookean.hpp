@@ -15,6 +15,7 @@ namespace piola::inline PIOLA_BACKEND {
 struct CompressibleNeoHookean : ElasticConstants {
   static constexpr std::string_view name = "compressible_neo_hookean";
   static constexpr std::string_view about = "compressible neo-Hookean solid with ln J, large elastic strain";
+  static constexpr std::string_view validity = "large strain with change of volume, Poisson's ratio from 0 on, J > 0";
   static constexpr bool small_strain = false;
   static constexpr bool volumetric_split = false;
   /// With lambda < 0 the energy would fall without limit towards J = 0.

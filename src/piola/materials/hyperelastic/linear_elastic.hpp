@@ -13,6 +13,10 @@ namespace piola::inline PIOLA_BACKEND {
 struct LinearElastic : VolumetricSplit<LinearElastic> {
   static constexpr std::string_view name = "linear_elastic";
   static constexpr std::string_view about = "linear elasticity, small strain and small rotation";
+  static constexpr std::string_view validity =
+      "strains below 0.02 and rotations below 0.05 rad. Beyond, the stress is wrong by about strain plus rotation, "
+      "Cauchy's stress is not symmetric, and a rotation by r counts as a strain of r^2/2; a run under jst_sph or "
+      "nodal warns of it. For more take saint_venant_kirchhoff or neo_hookean";
   static constexpr bool small_strain = true;
   using VolumetricSplit::VolumetricSplit;
 

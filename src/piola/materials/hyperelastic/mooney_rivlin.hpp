@@ -17,6 +17,7 @@ struct MooneyRivlin : VolumetricSplit<MooneyRivlin> {
   static constexpr std::string_view name = "mooney_rivlin";
   static constexpr std::string_view about =
       "nearly incompressible Mooney-Rivlin solid, polyconvex, large elastic strain";
+  static constexpr std::string_view validity = "rubber, nearly incompressible, J > 0";
   static constexpr bool small_strain = false;
   static constexpr std::array parameters{
       ElasticConstants::parameters[0], ElasticConstants::parameters[1], ElasticConstants::parameters[2],

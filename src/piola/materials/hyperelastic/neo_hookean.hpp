@@ -14,6 +14,7 @@ namespace piola::inline PIOLA_BACKEND {
 struct NeoHookean : VolumetricSplit<NeoHookean> {
   static constexpr std::string_view name = "neo_hookean";
   static constexpr std::string_view about = "nearly incompressible neo-Hookean solid, large elastic strain";
+  static constexpr std::string_view validity = "rubber, nearly incompressible, J > 0";
   static constexpr bool small_strain = false;
   using VolumetricSplit::VolumetricSplit;
 

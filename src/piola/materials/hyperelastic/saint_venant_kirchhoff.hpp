@@ -15,6 +15,7 @@ namespace piola::inline PIOLA_BACKEND {
 struct SaintVenantKirchhoff : ElasticConstants {
   static constexpr std::string_view name = "saint_venant_kirchhoff";
   static constexpr std::string_view about = "linear elasticity in the Green strain, large rotation and moderate strain";
+  static constexpr std::string_view validity = "large rotation, moderate strain: stretches above 0.6";
   static constexpr bool small_strain = false;
   static constexpr bool volumetric_split = false;
   using ElasticConstants::ElasticConstants;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/materials/eos/polynomial.hpp"
 #include "piola/materials/plastic/adiabatic_heating.hpp"
 #include "piola/math/root.hpp"
 #include <cmath>
@@ -19,6 +20,7 @@ class JohnsonHolmquist {
   static constexpr std::string_view name = "johnson_holmquist";
   static constexpr std::string_view about =
       "brittle solid in rate form (glass, ceramics), strength by pressure and damage (Johnson-Holmquist 2)";
+  using Eos = PolynomialEos;  ///< the model includes it
   static constexpr bool yields = true, thermal = false, homologous = false, brittle = true, pressed = true;
   static constexpr std::array parameters{
       Parameter{"hugoniot_elastic_limit", "Pa", "HEL, axial stress at yield in uniaxial compression", positive},

@@ -10,6 +10,7 @@ struct NoPlasticity {
   static constexpr std::string_view name = "elastic";
   static constexpr std::string_view about = "elastic solid in rate form (Jaumann), with an equation of state";
   static constexpr bool yields = false, thermal = false, homologous = false, brittle = false, pressed = false;
+  static constexpr bool may_vanish = true;  ///< goes with explosives, too
   static constexpr std::array<Parameter, 0> parameters{};
 
   PIOLA_FN NoPlasticity(double const*, Heat const&) {}

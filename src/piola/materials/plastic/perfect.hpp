@@ -12,6 +12,7 @@ class PerfectPlasticity {
   static constexpr std::string_view name = "perfectly_plastic";
   static constexpr std::string_view about = "elastic solid in rate form with a constant yield stress (von Mises)";
   static constexpr bool yields = true, thermal = false, homologous = false, brittle = false, pressed = false;
+  static constexpr bool may_vanish = true;  ///< goes with explosives, too
   static constexpr std::array parameters{Parameter{"yield_stress", "Pa", "von Mises stress at yield", positive}};
 
   PIOLA_FN PerfectPlasticity(double const* values, Heat const&) : yield_(values[0]) {}
