@@ -74,8 +74,8 @@ int explain(CLI::App const& program, CLI::ParseError const& error, std::span<cha
   return asked ? app::with_output(app::completed) : app::bad_input;
 }
 
-/// The action of the program as one of several ranks.
-app::Action shared(CLI::App const& program, app::Action action) {
+/// The given action; on several ranks, for commands other than run and resume, one that refuses.
+app::Action action_on_ranks(CLI::App const& program, app::Action action) {
   if (!comm::is_parallel() || program.got_subcommand("run") || program.got_subcommand("resume")) return action;
   return []() -> int {
     print_message(
@@ -84,7 +84,8 @@ app::Action shared(CLI::App const& program, app::Action action) {
   };
 }
 
-int use(int argc, char** argv) {
+/// Parses the command line: the subcommand that is given stores its action (app/command_NAME.cpp), which is then run.
+int run_command(int argc, char** argv) {
   CLI::App program("Piola: smoothed particle hydrodynamics for solids at large strain");
   program.set_version_flag("--version", std::string(piola::version()));
   program.require_subcommand(1);
@@ -106,7 +107,7 @@ int use(int argc, char** argv) {
   } catch (CLI::ParseError const& error) {
     return explain(program, error, std::span<char const* const>(argv, static_cast<std::size_t>(argc)).subspan(1));
   }
-  return perform(shared(program, std::move(action)));
+  return perform(action_on_ranks(program, std::move(action)));
 }
 
 }  // namespace
@@ -120,7 +121,7 @@ int main(int argc, char** argv) {
     app::set_quiet(true);
     app::ignore_stop_signals();
   }
-  int const code = use(argc, argv);
+  int const code = run_command(argc, argv);
   comm::finish();
   return code;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// The back end ("machine") for which a translation unit is compiled: `host` (plain, everything but the loops),
+/// The back end for which a translation unit is compiled: `host` (plain, everything but the loops),
 /// `scalar`, `v3`, `v4` (the loops, one instruction set each), `cuda`. All code that may be inlined into loops lives in
 /// an inline namespace of that name, so that the same source compiled for several instruction sets fits in one program.
 #ifndef PIOLA_BACKEND

@@ -108,7 +108,7 @@ std::int64_t steps_of(StepEstimate const& rule, RunSpec const& run, double time,
     step = std::min(rule.growth * step, most);
     ++steps;
   }
-  // As the main loop: a rest of less than a millionth of a step is taken along.
+  // As the time loop: a rest of less than a millionth of a step is taken along.
   steps += std::max(1.0, std::ceil((run.end - time) / step * (1 - 1e-6)));
   return static_cast<std::int64_t>(std::min(steps, 1e18));
 }

@@ -22,7 +22,7 @@ std::string backend_text(std::string_view asked);
 /// Error text of an InputError for an instruction set that is not among `usable` (names that end with nullptr).
 std::string not_usable(std::string_view backend, char const* const* usable);
 
-/// The back ends of one formulation, one per instruction set of this program that the processor supports. `Machine` has
+/// The back ends of one formulation, one per instruction set of this program that the processor supports. `Backend` has
 /// a member `name`; the objects must outlive the choice.
 template <class Backend>
 class BackendRegistry {

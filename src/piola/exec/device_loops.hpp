@@ -135,12 +135,14 @@ template <class Pass>
 void run_point_pass(void const* pass, Range b, Scratch const& sums) {
   for (Index i = b.first; i < b.last; i += lane_count) (*static_cast<Pass const*>(pass))(i, sums);
 }
+/// The pass without its type, so that a sweep is compiled once for all laws. The pass must outlive the result.
 template <class Pass>
 PointPass erased(Pass const& pass) {
   return {&pass, &run_point_pass<Pass>};
 }
 
 #if !defined(__CUDACC__)
+/// sweep(i, scratch) for the lanes of a block, then `then` for the same block: see Fused.
 template <class Sweep>
 void for_each_then(Range r, Sweep const& sweep, PointPass const& then) {
   for_each_block(r, Fused<Sweep>{sweep, then});

@@ -60,7 +60,8 @@ Pair const* find_pair(std::vector<Pair> const& pairs, std::string const& a, std:
   return nullptr;
 }
 
-/// Everything that a formulation is built from: plain numbers in Id order, no input text.
+/// Everything that a formulation is built from, without the text of the case: particles and their initial state as
+/// numbers in Id order; supports and loads keep their formulas of time. simulation/build.hpp: assemble().
 struct Assembly {
   ParticleSet particles;
   std::vector<MaterialParameters> materials;                ///< one per body

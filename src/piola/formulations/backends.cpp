@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The machines of every formulation, and how one is chosen: see exec/backend_registry.hpp.
+// The back ends of every formulation, and how one is chosen: see exec/backend_registry.hpp.
 #include "piola/exec/backend_registry.hpp"
 #include "piola/formulations/adaptle/state.hpp"
 #include "piola/formulations/jst_sph/state.hpp"

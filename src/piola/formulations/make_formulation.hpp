@@ -7,7 +7,7 @@
 namespace piola {
 
 /// Builds the formulation of the bodies, or their combination. Throws InputError if they cannot be combined or a
-/// formulation rejects its input.
+/// formulation rejects its input. Defined in registry.cpp, beside the list of formulations.
 std::unique_ptr<Formulation> make_formulation(Assembly const& assembly);
 
 }  // namespace piola

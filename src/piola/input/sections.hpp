@@ -14,7 +14,8 @@
 namespace piola {
 
 /// Readers of the sections of a case file. Each adds errors to the section's problems and returns what could be read,
-/// so that one bad section does not hide the problems of another. Internal to input/.
+/// so that one bad section does not hide the problems of another. model/read_case.cpp calls them in the order of
+/// their data.
 
 /// Facts about a body for readers of later sections. `names` may be used in formulas.
 struct BodyNames {

@@ -160,7 +160,7 @@ std::vector<FaceWeight> loaded_weights(ParticleSet const& particles, Body const&
   return shares;
 }
 
-void check_regions(CaseSpec const& spec, ParticleSet const& particles, Problems& problems) {
+void check_with_particles(CaseSpec const& spec, ParticleSet const& particles, Problems& problems) {
   PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   for (std::size_t b = 0; b < spec.bodies.size(); ++b)
     check_body(spec.bodies[b], particles, particles.bodies[b], problems);

@@ -15,7 +15,7 @@ ParticleSet make_particles(CaseSpec const& spec, Problems& problems);
 /// points of probes outside their body, formulas whose value is not a finite number at a particle, initial deformation
 /// gradients that turn a particle inside out, supports and mirrors that contradict each other, rigid shapes that hold
 /// particles. Also cracks, mirrors, rings, rigid shapes and contact that the formulation does not support.
-void check_regions(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
+void check_with_particles(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
 
 /// Pairs found by each tie of a case at the start, in the order of the ties; empty if a tie is impossible.
 std::vector<contact::Ties::TieReport> found_by_ties(CaseSpec const& spec, ParticleSet const& particles);

@@ -247,7 +247,7 @@ CaseSpec read_case_text(std::string_view text, std::string const& name, std::vec
     spec.identity = identity_of(spec);
     ParticleSet particles = make_particles(spec, problems);
     add_surface_contact(spec, particles);
-    check_regions(spec, particles, problems);
+    check_with_particles(spec, particles, problems);
     if (made != nullptr) *made = std::move(particles);
   }
   problems.sort_by_place();

@@ -30,7 +30,8 @@ inline constexpr double least_bytes_per_particle = 500;
 /// "path=value" that replace values of the file (see apply_overrides). Throws InputError with every problem that was
 /// found, each "file:line:column: what is wrong (what is allowed) - what to do", in the order of the file, or that the
 /// file cannot be read.
-/// Particles, which the checks need, are left in `made` if that is given (model/case_particles.hpp: make_particles).
+/// The readers of input/ make the specification; the last checks need particles (make_particles and
+/// check_with_particles in model/case_particles.hpp), which are left in `made` if that is given.
 CaseSpec read_case(std::filesystem::path const& path, std::vector<std::string> const& overrides = {},
                    ReadLimits const& limits = {}, ParticleSet* made = nullptr);
 

@@ -10,7 +10,7 @@
 
 namespace piola {
 
-/// Tools of check_regions and of the warnings about a case.
+/// Tools of check_with_particles and of the warnings about a case.
 
 /// "its particles reach from ... to ...".
 std::string box_of(ParticleSet const& particles, Body const& body);
@@ -76,7 +76,7 @@ void mark_parts(CaseSpec const& spec, ParticleSet& particles);
 /// Reports parts without particles, parts that take all of a body, and bodies that cannot have any.
 void check_parts(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
 
-/// The part of check_regions() for supports, loads and mirrors.
+/// The part of check_with_particles() for supports, loads and mirrors.
 void check_boundaries(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
 
 }  // namespace piola

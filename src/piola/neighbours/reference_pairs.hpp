@@ -29,7 +29,7 @@ struct PairOptions {
   Kernel const* kernel = nullptr;
   double h_gradient = 0;       ///< smoothing length of the gradient [m]
   double h_laplacian = 0;      ///< of the Laplacian [m]; 0: no Laplacian; otherwise at least h_gradient
-  int lanes = 1;               ///< lane count of the machine that will use the tables
+  int lanes = 1;               ///< lane count of the back end that will use the tables
   bool stencils = true;        ///< use lattice patterns where the body is a regular lattice
   bool kernel_table = false;   ///< tables hold the kernel of the Laplacian's support (filter)
   CopiedParticles copies{};    ///< bodies without lattice patterns only

@@ -34,7 +34,8 @@ class Observer {
   virtual void load(NamedState&, TimeState const&) {}
 };
 
-/// Common data of all observers. The references outlive the observers.
+/// Common data of all observers: the results folder, the case and its particles, the log of the run. The references
+/// outlive the observers.
 struct Results {
   std::filesystem::path folder;
   CaseSpec const& spec;

@@ -9,7 +9,7 @@ namespace piola {
 
 FieldCache::FieldCache(Formulation const& formulation, ParticleSet const& particles, Of of)
     : observables_(formulation.observables()), particles_(particles), fields_(observables_.fields()), of_(of) {
-  if (of == Of::local) owned_ = observables_.local_particles();
+  if (of == Of::local) local_ = observables_.local_particles();
   auto const add = [&](FieldInfo info) {
     if (!knows(info.name)) fields_.push_back(std::move(info));
   };
@@ -27,8 +27,8 @@ bool FieldCache::knows(std::string_view field) const {
 FieldInfo const& FieldCache::info(std::string_view field) const { return info_of(fields_, field); }
 
 std::vector<double> FieldCache::make(std::string_view field, std::size_t components) {
-  auto const count = owned_ ? owned_->size() : static_cast<std::size_t>(particles_.size());
-  auto const id_of = [&](std::size_t k) { return owned_ ? static_cast<std::size_t>((*owned_)[k]) : k; };
+  auto const count = local_ ? local_->size() : static_cast<std::size_t>(particles_.size());
+  auto const id_of = [&](std::size_t k) { return local_ ? static_cast<std::size_t>((*local_)[k]) : k; };
   std::vector<double> out(count * components);
   if (field == "Body") {
     for (std::size_t i = 0; i < count; ++i) out[i] = particles_.body[id_of(i)];

@@ -15,7 +15,7 @@ namespace piola {
 /// [m]), "Body" and "Id". Valid until the next step; formulation and particles must outlive it.
 class FieldCache {
  public:
-  /// all: values of all particles. owned: values of local particles only (Observables::local_particles); `id` below is
+  /// all: values of all particles. local: values of local particles only (Observables::local_particles); `id` below is
   /// then the index among these, and values() is collective: all ranks request the same fields in the same order.
   enum class Of { all, local };
   FieldCache(Formulation const& formulation, ParticleSet const& particles, Of of = Of::all);
@@ -27,8 +27,8 @@ class FieldCache {
   std::vector<FieldInfo> const& fields() const { return fields_; }
   Observables const& observables() const { return observables_; }
   ParticleSet const& particles() const { return particles_; }
-  /// For Of::local, the ids of the local particles; nothing if this rank owns all.
-  std::optional<std::vector<std::int64_t>> const& local_particles() const { return owned_; }
+  /// For Of::local, the ids of the local particles; nothing if these are all particles.
+  std::optional<std::vector<std::int64_t>> const& local_particles() const { return local_; }
 
  private:
   std::vector<double> make(std::string_view field, std::size_t components);
@@ -36,7 +36,7 @@ class FieldCache {
   ParticleSet const& particles_;
   std::vector<FieldInfo> fields_;
   Of of_;
-  std::optional<std::vector<std::int64_t>> owned_;  ///< nothing: all
+  std::optional<std::vector<std::int64_t>> local_;  ///< nothing: all
   std::map<std::string, std::vector<double>, std::less<>> cache_;
 };
 

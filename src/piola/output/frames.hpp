@@ -10,7 +10,8 @@
 
 namespace piola {
 
-/// The tables of one frame. With distributed particles, every rank writes those of its local particles.
+/// The tables of one frame, in single precision except for integers. With distributed particles, every rank writes
+/// those of its local particles.
 class FrameContent {
  public:
   /// `fields` empty: every field of the formulation; unknown names are skipped. `cache`: fields of the local particles.

@@ -27,6 +27,7 @@ class CopyOnWriteVector {
   template <class Iterator>
   CopyOnWriteVector(Iterator first, Iterator last) : CopyOnWriteVector(std::vector<T>(first, last)) {}
 
+  /// The vector for reading, which does not detach.
   std::vector<T> const& seen() const { return values_ ? *values_ : nothing(); }
   operator std::vector<T> const&() const { return seen(); }
   /// The vector of this object alone.

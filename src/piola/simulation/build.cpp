@@ -31,6 +31,7 @@ std::array<double, N> values_at(std::array<Expression, N> const& formulas, std::
   return out;
 }
 
+/// Evaluates the formulas of one body at the reference positions of its particles.
 void set_initial_state(BodySpec const& from, Body const& body, Assembly& a) {
   auto const& X = a.particles.X.seen();
   auto const put = [&](auto const& formulas, auto& values) {
@@ -232,7 +233,7 @@ std::vector<contact::Surface> surfaces_of(CaseSpec const& spec, Assembly const& 
 Assembly assemble(CaseSpec const& spec) {
   Problems problems;
   ParticleSet particles = make_particles(spec, problems);
-  check_regions(spec, particles, problems);
+  check_with_particles(spec, particles, problems);
   report_mixed_start(spec, problems);
   problems.raise_if_any();
   return assemble(spec, std::move(particles));

@@ -19,8 +19,8 @@ struct Simulation {
   std::vector<std::string> warnings;  ///< unusual settings of the case (guards/warnings.hpp)
 };
 
-/// Creates the particles of a case and evaluates its formulas there. Throws InputError with all errors in regions and
-/// formulas.
+/// Creates the particles of a case and evaluates the formulas of their initial state. Throws InputError with all errors
+/// in regions and formulas.
 Assembly assemble(CaseSpec const& spec);
 /// As above, with the checked particles that `read_case` has created for this case.
 Assembly assemble(CaseSpec const& spec, ParticleSet particles);

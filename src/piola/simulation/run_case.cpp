@@ -24,7 +24,7 @@
 namespace piola {
 
 /// All observers of a run, in the order in which they look.
-struct Watch {
+struct RunObservers {
   HistoryObserver history;
   GuardObserver guards;
   FrameObserver frames;
@@ -36,7 +36,8 @@ struct Watch {
   std::vector<Observer*> also;
   bool written;  // to a folder
 
-  Watch(Results const& results, double mass, Listener& listener, CheckpointRequests const& orders, Observer* last)
+  RunObservers(Results const& results, double mass, Listener& listener, CheckpointRequests const& orders,
+               Observer* last)
       : history(results),
         guards(results, mass, history),
         frames(results),
@@ -97,15 +98,15 @@ void keep_files(CaseSpec const& spec, std::filesystem::path const& results, RunL
 }
 
 /// Starts a new run: removes older results from the folder, saves the case, and observes the first state.
-TimeState begin_new(Simulation& s, RunOptions const& options, RunLog& journal, Watch& watch) {
+TimeState begin_new(Simulation& s, RunOptions const& options, RunLog& journal, RunObservers& observers) {
   journal.note(start_text(s));
-  if (watch.written) {
+  if (observers.written) {
     write_whole_file(options.folder / "case.toml", s.spec.source);
     keep_files(s.spec, options.folder, journal);
   }
-  watch.history.open(*s.formulation, {});
+  observers.history.open(*s.formulation, {});
   TimeState const moment;
-  for (Observer* observer : watch.all()) observer->observe(*s.formulation, moment);
+  for (Observer* observer : observers.all()) observer->observe(*s.formulation, moment);
   return moment;
 }
 
@@ -118,13 +119,13 @@ std::int64_t size_of_state(Formulation const& formulation) {
 
 /// Resumes a run: restores the state of the newest valid checkpoint, with permitted changes of the case that do not
 /// affect the state at a given time.
-TimeState begin_again(Simulation& s, RunOptions const& options, RunLog& journal, Watch& watch) {
+TimeState begin_again(Simulation& s, RunOptions const& options, RunLog& journal, RunObservers& observers) {
   Problems problems;
   compare_with_kept_list(s.spec, options.folder, problems);
   problems.raise_if_any();
-  auto moment = restore(s, options.folder, journal, watch.all(), false);
+  auto moment = restore(s, options.folder, journal, observers.all(), false);
   if (!moment) {
-    moment = restore(s, options.folder, journal, watch.all(), true);
+    moment = restore(s, options.folder, journal, observers.all(), true);
     journal.warn(
         fmt::format("the step before t = {} s was cut to the end that the run had then, and no checkpoint from "
                     "before it is left; from there on the numbers differ in their last digits from those of a "
@@ -134,7 +135,7 @@ TimeState begin_again(Simulation& s, RunOptions const& options, RunLog& journal,
   auto const file = options.folder / "case.toml";
   if (read_text_file(file) != s.spec.source) write_whole_file(file, s.spec.source);
   journal.note(fmt::format("resumed at step {}, t = {} s; {}", moment->step, moment->time, start_text(s)));
-  watch.history.open(*s.formulation, moment->time);
+  observers.history.open(*s.formulation, moment->time);
   return *moment;
 }
 
@@ -155,14 +156,14 @@ void report_rest(Relaxation const& relaxation, RunLog& journal) {
 }
 
 /// Missing files that the run wrote, in one sentence; empty if there are none.
-std::string missing_results(RunOptions const& options, Watch& watch) {
+std::string missing_results(RunOptions const& options, RunObservers& observers) {
   constexpr std::size_t few = 5;
   auto const& folder = options.folder;
   std::vector<std::filesystem::path> all{folder / "case.toml", folder / "log.txt"};
   // A run that is resumed may have lost copies before.
   for (KeptFile const& file : options.resume ? std::vector<KeptFile>() : read_kept_list(folder))
     if (!file.kept.empty()) all.push_back(folder / kept_files / file.kept);
-  for (Observer* observer : watch.all()) {
+  for (Observer* observer : observers.all()) {
     auto const files = observer->files();
     all.insert(all.end(), files.begin(), files.end());
   }
@@ -201,15 +202,15 @@ std::string repartition_text(RepartitionStatistics const& repartition_statistics
 }
 
 /// Adds the results of observers and ranks over the whole run.
-void add_watched(Summary& summary, Simulation const& s, Watch const& watch, RunLog& journal) {
-  summary.guards = watch.guards.report();
+void add_observed(Summary& summary, Simulation const& s, RunObservers const& observers, RunLog& journal) {
+  summary.guards = observers.guards.report();
   summary.ranks = traffic_on_ranks();
   if (!summary.ranks.empty()) summary.repartition_statistics = s.formulation->statistics().repartition;
   if (auto const& repartition_statistics = summary.repartition_statistics;
       repartition_statistics && !repartition_statistics->imbalance.empty())
     journal.note(repartition_text(*repartition_statistics));
-  if (!watch.relaxation.active()) return;
-  RelaxationStatus const& rest = watch.relaxation.rest();
+  if (!observers.relaxation.active()) return;
+  RelaxationStatus const& rest = observers.relaxation.rest();
   summary.relaxation = {rest.reached, rest.residual, rest.stops};
 }
 
@@ -229,7 +230,7 @@ struct CaseRun::Parts {
   std::unique_ptr<FolderLock> lock;  // null if nothing is written
   RunLog journal;
   WallLimit wall;
-  Watch watch;
+  RunObservers observers;
   TimeState moment;
   LoopResult last;  // how the last part ended
 
@@ -240,8 +241,8 @@ struct CaseRun::Parts {
         lock(take_folder(s, given)),
         journal(given.folder.empty() ? std::filesystem::path() : given.folder / "log.txt", listener),
         wall(given.wall_time, given.started),
-        watch({given.folder, s.spec, s.particles, journal}, s.mass, listener, {given.checkpoint_request, &wall},
-              given.also) {}
+        observers({given.folder, s.spec, s.particles, journal}, s.mass, listener, {given.checkpoint_request, &wall},
+                  given.also) {}
 };
 
 CaseRun::CaseRun(Simulation& s, RunOptions const& options, Listener& listener, std::atomic<int> const& stop)
@@ -258,8 +259,8 @@ CaseRun::CaseRun(Simulation& s, RunOptions const& options, Listener& listener, s
   for (std::string const& warning : s.warnings) journal.warn(warning);
   report_set_up(*s.formulation, journal);
   auto const before = WallLimit::Clock::now();
-  parts_->moment =
-      options.resume ? begin_again(s, options, journal, parts_->watch) : begin_new(s, options, journal, parts_->watch);
+  parts_->moment = options.resume ? begin_again(s, options, journal, parts_->observers)
+                                  : begin_new(s, options, journal, parts_->observers);
   if (!parts_->wall.exists()) return;
   parts_->wall.step_took(std::chrono::duration<double>(WallLimit::Clock::now() - before).count());
   parts_->wall.checkpoint_has(size_of_state(*s.formulation));
@@ -272,8 +273,8 @@ void CaseRun::put_moment(TimeState const& moment) {
   PIOLA_EXPECTS(moment.step >= 0 && std::isfinite(moment.time));
   parts_->moment = moment;
 }
-HistoryTable const& CaseRun::history() const { return parts_->watch.history.table(); }
-void CaseRun::also(Observer& observer) { parts_->watch.also.push_back(&observer); }
+HistoryTable const& CaseRun::history() const { return parts_->observers.history.table(); }
+void CaseRun::also(Observer& observer) { parts_->observers.also.push_back(&observer); }
 
 LoopResult const& CaseRun::advance(Pause const& pause) {
   Parts& p = *parts_;
@@ -281,11 +282,12 @@ LoopResult const& CaseRun::advance(Pause const& pause) {
   // A cut step changes the steps after it: the case alone no longer determines the results.
   if (pause.exactly && pause.time < run.end) p.simulation.spec.identity.run.clear();
   if (pause.exactly) run.end = std::min(run.end, pause.time);
-  p.last = march(*p.simulation.formulation, run, p.moment, p.watch.all(), {p.stop, p.wall, pause}, &p.watch.relaxation);
+  p.last = march(*p.simulation.formulation, run, p.moment, p.observers.all(), {p.stop, p.wall, pause},
+                 &p.observers.relaxation);
   p.last.paused = p.last.paused || (p.last.ending == RunStatus::completed && !p.moment.at_rest &&
                                     p.moment.time < p.simulation.spec.run.end);
-  if (p.last.ending == RunStatus::completed && !p.last.paused && p.watch.relaxation.unfinished()) {
-    StopRequest const not_at_rest = p.watch.relaxation.objection_at_end();
+  if (p.last.ending == RunStatus::completed && !p.last.paused && p.observers.relaxation.unfinished()) {
+    StopRequest const not_at_rest = p.observers.relaxation.objection_at_end();
     p.last = {.ending = RunStatus::failed, .failure = not_at_rest.failure, .causes = not_at_rest.causes};
   }
   return p.last;
@@ -295,16 +297,16 @@ CaseOutcome CaseRun::finish() {
   Parts& p = *parts_;
   Simulation const& s = p.simulation;
   RunStatus const ending = p.last.paused ? RunStatus::stopped : p.last.ending;
-  report_rest(p.watch.relaxation, p.journal);
-  for (Observer* observer : p.watch.all()) observer->finish(*s.formulation, p.moment, ending);
+  report_rest(p.observers.relaxation, p.journal);
+  for (Observer* observer : p.observers.all()) observer->finish(*s.formulation, p.moment, ending);
 
   CaseOutcome outcome{.ending = ending,
                       .summary = summarise(s, p.moment, ending, history(), p.journal),
                       .failure = {},
                       .out_of_time = p.last.out_of_time,
-                      .last_picture = p.watch.pictures.last(),
+                      .last_picture = p.observers.pictures.last(),
                       .index = {}};
-  add_watched(outcome.summary, s, p.watch, p.journal);
+  add_observed(outcome.summary, s, p.observers, p.journal);
   auto const& folder = p.options.folder;
   if (p.last.failure) {
     add_energies(*p.last.failure, history());
@@ -312,7 +314,7 @@ CaseOutcome CaseRun::finish() {
   }
   if (p.last.failure) outcome.failure = failure_text(*p.last.failure, p.last.causes, p.moment, s.spec.run.cfl, folder);
   if (folder.empty()) return outcome;
-  std::string const missing = missing_results(p.options, p.watch);
+  std::string const missing = missing_results(p.options, p.observers);
   if (!missing.empty()) outcome.summary.warnings.push_back(missing);
   if (!missing.empty() && !p.last.failure) outcome.summary.status = "incomplete";
   if (std::filesystem::exists(folder / "frames.hdf.series")) outcome.index = folder / "frames.hdf.series";

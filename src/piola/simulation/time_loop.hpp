@@ -15,14 +15,14 @@
 
 namespace piola {
 
-/// Stop of the main loop before the end of the run.
+/// Stop of the time loop before the end of the run.
 struct Pause {
   double time = std::numeric_limits<double>::infinity();         ///< s, at the first step that reaches it
   std::int64_t step = std::numeric_limits<std::int64_t>::max();  ///< after this step
   bool exactly = false;  ///< the last step is shortened to `time`, as at the end of a run (CaseRun::advance)
 };
 
-/// Result of the main loop.
+/// Result of the time loop.
 struct LoopResult {
   RunStatus ending = RunStatus::completed;
   std::optional<Failure> failure = {};  ///< set if ending is failed
@@ -31,14 +31,14 @@ struct LoopResult {
   bool paused = false;                  ///< the run can continue from here; ending is stopped
 };
 
-/// Conditions that end the main loop before the end time of the run.
+/// Conditions that end the time loop before the end time of the run.
 struct StopConditions {
   std::atomic<int> const& asked;  ///< by a signal, if nonzero
   WallLimit& wall;
   Pause pause = {};
 };
 
-/// The main loop: from `moment` to the end time of `run`, or until `relaxation` converges, the physics fails, an
+/// The time loop: from `moment` to the end time of `run`, or until `relaxation` converges, the physics fails, an
 /// observer objects, or one of `stops` is reached. Observers have read access after each step; they never change the
 /// step.
 LoopResult march(Formulation& formulation, RunSpec const& run, TimeState& moment, std::span<Observer* const> observers,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loops of AdapTLE for one machine; compiled once per instruction set (PIOLA_BACKEND).
+// The loops of AdapTLE for one back end; compiled once per instruction set (PIOLA_BACKEND).
 #include "piola/formulations/adaptle/step.hpp"
 
 namespace piola::adaptle::inline PIOLA_BACKEND {

@@ -28,7 +28,7 @@ namespace piola {
 /// One or more bodies of one formulation that do not touch each other, distributed over ranks by slots: what does not
 /// depend on the scheme. Derived solvers make the bodies, take the steps, and add their own state to checkpoints.
 ///
-/// A Body owns its fields and visits the evolved ones: each_evolved(). Its namespace has observe(), finish(),
+/// A Body owns its fields and visits the evolved ones: each_evolved(). Its namespace has add_diagnostics(), finish(),
 /// sample_on_root() and sample_local_slots(). A Monitor measures the step limit of one body.
 template <class Body, class Monitor>
 class BodiesSolver : public Formulation, public Observables, public CoupledParticles {
@@ -50,7 +50,7 @@ class BodiesSolver : public Formulation, public Observables, public CoupledParti
   void sample(std::string_view field, std::span<double> values) const final {
     int number = 0;
     for (auto const& body : bodies_) {
-      refresh(*body);
+      update_output_fields(*body);
       sample_on_root(std::as_const(*body), number++, field, values);
     }
   }
@@ -75,8 +75,9 @@ class BodiesSolver : public Formulation, public Observables, public CoupledParti
   explicit BodiesSolver(Assembly const& assembly)
       : set_(assembly.particles), actions_(assembly.supports, assembly.loads, assembly.rigid_shapes) {}
 
-  /// Updates the data of a body for observers; the state for steps is unchanged. Collective if it is distributed.
-  virtual void refresh(Body& body) const = 0;
+  /// Computes the fields of a body that output needs and steps do not; the state for steps is unchanged. Collective if
+  /// it is distributed.
+  virtual void update_output_fields(Body& body) const = 0;
   /// The first failed particle of a body as this rank knows it.
   virtual FailureSlot failed_particle(std::size_t body) const { return *bodies_[body]->state().failure; }
   /// Gives a failure its text and values.
@@ -101,8 +102,8 @@ class BodiesSolver : public Formulation, public Observables, public CoupledParti
   template <class Sum>
   Diagnostics diagnose_from(Sum all) const {
     for (auto const& body : bodies_) {
-      refresh(*body);
-      observe(std::as_const(*body), all);
+      update_output_fields(*body);
+      add_diagnostics(std::as_const(*body), all);
     }
     Diagnostics d = finish(std::move(all));
     d.actions = actions_.over_ranks(bodies_).report();
@@ -176,7 +177,7 @@ void BodiesSolver<Body, Monitor>::sample_local(std::string_view field, std::span
   int number = 0;
   for (auto const& body : bodies_) {
     auto const numbers = static_cast<std::size_t>(body->own().last - body->own().first) * components;
-    refresh(*body);
+    update_output_fields(*body);
     sample_local_slots(std::as_const(*body), number++, field, values.first(numbers));
     values = values.subspan(numbers);
   }

@@ -61,7 +61,7 @@ void add_totals(Diagnostics& sum, Diagnostics const& d, bool first) {
   add_columns(sum.more, d.more);
 }
 
-/// Not std::min: a step that is not a number must reach the main loop.
+/// Not std::min: a step that is not a number must reach the time loop.
 double smaller_or_nan(double step, double other) { return std::isnan(step) || other >= step ? step : other; }
 
 class CoupledFormulations : public Formulation, public Observables {

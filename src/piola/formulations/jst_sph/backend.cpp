@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loops of JST-SPH for one machine; compiled once per instruction set (PIOLA_BACKEND).
+// The loops of JST-SPH for one back end; compiled once per instruction set (PIOLA_BACKEND).
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/jst_sph/step.hpp"
 #include "piola/formulations/jst_sph/verlet_step.hpp"

@@ -37,7 +37,7 @@ class JstBody {
   ParticleSet const& set() const { return *set_; }
   MirrorImages& images() { return images_; }
   std::size_t bytes() const;
-  bool shared() const { return halo_ != nullptr; }
+  bool shared() const { return halo_ != nullptr; }  ///< whether the body is distributed over ranks
   /// Slots of the local particles: all on one rank.
   Range own() const;
   /// Lattice lines for observers if the body is distributed; else nullptr.

@@ -62,7 +62,7 @@ double volume_mismatch(JstBody const& body, double J, Index i) {
 
 }  // namespace
 
-void observe(JstBody const& body, JstObservation& o) {
+void add_diagnostics(JstBody const& body, JstDiagnosticsSum& o) {
   auto& d = o.totals;
   LatticeLineHalo* const lines = body.lattice_line_halo();
   std::vector<double> pressure(lines != nullptr ? 0 : static_cast<std::size_t>(body.particles()));
@@ -94,7 +94,7 @@ void observe(JstBody const& body, JstObservation& o) {
     o.add_oscillation(body.set(), body.body(), pressure);
 }
 
-Diagnostics finish(JstObservation o) {
+Diagnostics finish(JstDiagnosticsSum o) {
   if (comm::is_parallel()) {
     o.share();
     comm::allreduce_sum(o.mismatch_square);

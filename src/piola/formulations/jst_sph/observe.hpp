@@ -7,17 +7,17 @@
 /// Observed quantities of a JST-SPH state; read-only.
 namespace piola::jst_sph {
 
-struct JstObservation : DiagnosticsSum {
+struct JstDiagnosticsSum : DiagnosticsSum {
   /// sum V (det F - volume ratio of the volumetric energy)^2
   exec::ReproducibleSums<1> mismatch_square;
   double mismatch_max = 0;
 };
 
 /// Adds the local particles. Collective if the body is distributed.
-void observe(JstBody const& body, JstObservation& observation);
+void add_diagnostics(JstBody const& body, JstDiagnosticsSum& sum);
 
 /// Energies, momenta, extrema and the volume mismatch over all bodies. Collective if they are distributed.
-Diagnostics finish(JstObservation observation);
+Diagnostics finish(JstDiagnosticsSum sum);
 
 /// The fields of JST-SPH for frames and probes.
 std::vector<FieldInfo> output_field_names();

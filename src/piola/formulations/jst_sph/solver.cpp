@@ -76,7 +76,7 @@ class Solver final : public BodiesSolver<JstBody, StabilityMonitor> {
     });
   }
 
-  Diagnostics diagnose() const override { return diagnose_from(JstObservation{}); }
+  Diagnostics diagnose() const override { return diagnose_from(JstDiagnosticsSum{}); }
   std::vector<FieldInfo> fields() const override { return output_field_names(); }
 
   void save(StateWriter& writer) const override;
@@ -102,8 +102,8 @@ class Solver final : public BodiesSolver<JstBody, StabilityMonitor> {
     largest_speed_.clear();
     for (auto const& body : bodies_) largest_speed_.push_back(backend_.largest_wave_speed(body->state()));
   }
-  /// Displacement variables keep F of the last stage; observers need that of x.
-  void refresh(JstBody& body) const override {
+  /// Displacement variables keep F of the last stage; output needs that of x.
+  void update_output_fields(JstBody& body) const override {
     BodyState seen = body.state();
     if (body.options().variables == Variables::displacement) backend_.update_deformation(seen);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loops of the nodal formulation for one machine; compiled once per instruction set (PIOLA_BACKEND).
+// The loops of the nodal formulation for one back end; compiled once per instruction set (PIOLA_BACKEND).
 #include "piola/formulations/nodal/step.hpp"
 
 namespace piola::nodal::inline PIOLA_BACKEND {
@@ -21,8 +21,8 @@ void step(BodyState& body, double dt) {
 void accelerate(BodyState& body) {
   with_step(body, [](auto one_step) { one_step.accelerate(); });
 }
-void observe(BodyState& body) {
-  with_step(body, [](auto one_step) { one_step.observe(); });
+void update_output_fields(BodyState& body) {
+  with_step(body, [](auto one_step) { one_step.update_output_fields(); });
 }
 void keep(BodyState& body) {
   with_step(body, [](auto one_step) { one_step.keep(); });
@@ -50,7 +50,7 @@ double largest_change(BodyState& body) {
 
 /// The entry by which the host finds this instruction set.
 extern Backend const backend;
-Backend const backend{PIOLA_BACKEND_NAME, lane_count, &step,    &accelerate, &observe,
+Backend const backend{PIOLA_BACKEND_NAME, lane_count, &step,    &accelerate, &update_output_fields,
                       &largest_change,    &keep,      &restore, &project,    &subtract_gradients};
 
 }  // namespace piola::nodal::inline PIOLA_BACKEND

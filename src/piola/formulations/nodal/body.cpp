@@ -55,7 +55,7 @@ void attach_images(BodyState& state, MirrorImages& images) {
   state.x.copies = images.copies({MirrorImages::Kind::position});
   with_dimension(state.dimension, [&](auto dimension) {
     constexpr int D = dimension, width = Records<D>::width;
-    state.second.copies = images.copies(D * width, [](int value, int axis) {
+    state.stress_for_neighbours.copies = images.copies(D * width, [](int value, int axis) {
       int const m = value % width;
       return (value / width == axis) != (m < Records<D>::used && turns<D>(m, axis));
     });
@@ -123,8 +123,8 @@ void NodalBody::allocate() {
       f.allocate(n, 0);
   });
   fields_.bind();
-  s.first = reference_.lattice ? s.products : s.X;
-  s.second = s.stress;
+  s.motion_for_neighbours = reference_.lattice ? s.products : s.X;
+  s.stress_for_neighbours = s.stress;
   if (!images_.empty()) attach_images(s, images_);
   s.list = reference_.list();
   if (reference_.lattice) s.lattice = reference_.lattice->table();

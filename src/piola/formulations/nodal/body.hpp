@@ -38,7 +38,7 @@ class NodalBody {
   Index slots() const { return order_.slots(); }
   std::int64_t id(Index slot) const { return order_.id[static_cast<std::size_t>(slot)]; }
   Reference const& reference() const { return reference_; }
-  bool shared() const { return halo_ != nullptr; }
+  bool shared() const { return halo_ != nullptr; }  ///< whether the body is distributed over ranks
   /// Slots of the local particles: all on one rank.
   Range own() const;
   /// Lattice lines for observers if the body is distributed; else nullptr.
@@ -63,7 +63,7 @@ class NodalBody {
   double largest_change() const { return largest_change_; }
   double kinetic_energy() const;                             ///< over all ranks [J]; collective
   double kinetic_energy_of(Index slot) const;                ///< [J]
-  double strain_energy() const;                              ///< of the state for observers, over all ranks [J];
+  double strain_energy() const;                              ///< from Fields::cell, over all ranks [J];
                                                              ///< collective
   double damping_loss() const { return damping_loss_; }      ///< since the start [J]
   double viscous_loss() const;                               ///< over all ranks, since the start [J]; collective
@@ -72,8 +72,8 @@ class NodalBody {
   /// rate form.
   double mean_of_points(Index slot, int number) const;
   void set_damping_loss(double loss) { damping_loss_ = loss; }
-  /// Whether the fields for observers belong to the present state, so that no sweep is needed. Callers that change the
-  /// state from outside must reset it.
+  /// Whether Backend::update_output_fields has run at the present state, so that no sweep is needed. Callers that
+  /// change the state from outside must reset it.
   bool observed() const { return observed_; }
   void set_observed(bool observed) { observed_ = observed; }
   double next_end_time(double time) const { return boundary_->next_end_time(time); }

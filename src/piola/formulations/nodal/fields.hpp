@@ -85,7 +85,8 @@ struct Fields {
   // Derived: of a lattice x_c mu_J; rows (Y_i, Z_i).
   ListedRef products{owner, "CorrectedPosition", "1", dimension* dimension, Role::derived, in_records};
   ListedRef stress{owner, "StressOfSums", "N/m", values(dimension) * dimension + dimension* dimension, Role::derived};
-  // For observers: gradient at the centroid; mean stress, three-dimensional; energy per volume, mean J, least J.
+  // By Backend::update_output_fields alone, not by steps: gradient at the centroid; mean stress, three-dimensional;
+  // energy per volume, mean J, least J, mean stretch of a missing direction.
   ListedRef F{owner, "DeformationGradient", "1", dimension* dimension, Role::derived};
   ListedRef P{owner, "FirstPiolaStress", "Pa", 9, Role::derived};
   ListedRef cell{owner, "CellState", "1", 4, Role::derived};

@@ -11,11 +11,11 @@ template <int D>
 void add_halo_fields(HaloPlan& halo, BodyState const& state) {
   using R = Records<D>;
   halo.add(state.x, 0, D);
-  halo.add(state.first, 0, 0);  // products of x; in a record only x changes
+  halo.add(state.motion_for_neighbours, 0, 0);  // products of x; in a record only x changes
   if (state.lattice.present != nullptr)
-    halo.add(state.second, 0, D * R::used);
+    halo.add(state.stress_for_neighbours, 0, D * R::used);
   else
-    for (int c = 0; c < D; ++c) halo.add(state.second, c * R::width, R::used);
+    for (int c = 0; c < D; ++c) halo.add(state.stress_for_neighbours, c * R::width, R::used);
 }
 
 }  // namespace piola::nodal

@@ -9,10 +9,10 @@ namespace piola::nodal::inline PIOLA_BACKEND {
 /// Saves and restores results in a SIMD group that holds particles of two materials: the pass of the second law
 /// overwrites all lanes; put_back() restores the lanes of the first. At most one group per pair of materials.
 template <int D>
-class SharedLanes {
+class MixedMaterialLanes {
  public:
   /// Saves the slots [group, own), which precede the first slot of the second material in the group.
-  SharedLanes(BodyState const& body, Index group, Index own) : body_(body), group_(group), own_(own) {
+  MixedMaterialLanes(BodyState const& body, Index group, Index own) : body_(body), group_(group), own_(own) {
     int at = 0;
     each([&](FieldRef const& field, int components) {
       View const from = read(field);
@@ -34,7 +34,7 @@ class SharedLanes {
   /// Fields that UpdateStress writes and that depend on the law. F, C and its change depend on the motion alone.
   template <class Visit>
   void each(Visit const& visit) const {
-    visit(body_.second, D * Records<D>::width);
+    visit(body_.stress_for_neighbours, D * Records<D>::width);
     visit(body_.a, D);
     visit(body_.change, 2);
     visit(body_.P, 9);

@@ -62,7 +62,7 @@ void add_oscillation(NodalBody const& body, LazyZeroArray<double> const& by_slot
 
 }  // namespace
 
-void observe(NodalBody const& body, NodalObservation& o) {
+void add_diagnostics(NodalBody const& body, NodalDiagnosticsSum& o) {
   o.begin_body(body.body().name);
   auto const of_cells = cell_pressures(body), smooth = body.smoothing()(of_cells);
   exec::ReproducibleSums<1> strain;
@@ -85,7 +85,7 @@ void observe(NodalBody const& body, NodalObservation& o) {
   add_oscillation(body, of_cells, o.of_cells);
 }
 
-Diagnostics finish(NodalObservation o) {
+Diagnostics finish(NodalDiagnosticsSum o) {
   if (comm::is_parallel()) {
     o.share();
     o.of_cells.share();

@@ -4,10 +4,11 @@
 #include "piola/formulations/nodal/body.hpp"
 #include <limits>
 
-/// Observed quantities of a nodal state; read-only. Precondition: the body's fields for observers are up to date.
+/// Observed quantities of a nodal state; read-only. Precondition: Solver::update_output_fields was called for
+/// it.
 namespace piola::nodal {
 
-struct NodalObservation : DiagnosticsSum {
+struct NodalDiagnosticsSum : DiagnosticsSum {
   double least_jacobian = std::numeric_limits<double>::infinity();  ///< at a point of a cell
   double repeated_steps = 0;
   exec::ReproducibleSums<1> plastic_work;  ///< [J]
@@ -15,10 +16,10 @@ struct NodalObservation : DiagnosticsSum {
 };
 
 /// Adds the local particles. Collective if the body is distributed.
-void observe(NodalBody const& body, NodalObservation& observation);
+void add_diagnostics(NodalBody const& body, NodalDiagnosticsSum& sum);
 
 /// Energies, momenta and extrema over all bodies. Collective if they are distributed.
-Diagnostics finish(NodalObservation observation);
+Diagnostics finish(NodalDiagnosticsSum sum);
 
 /// The fields of nodal bodies for frames and probes; `solids`: with those of solids in rate form.
 std::vector<FieldInfo> output_field_names(bool solids);

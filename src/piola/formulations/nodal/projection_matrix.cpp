@@ -47,7 +47,8 @@ void ProjectionMatrix<D>::for_each_local(F const& f) const {
 template <int D>
 void ProjectionMatrix<D>::distribute(HaloPlan const& halo) {
   state_.slots = even_range_of_rank(slots_, comm::rank(), comm::size());
-  if (state_.first.data == nullptr) state_.first = weights_.ref();  // neither sent nor read at neighbours
+  // Neither sent nor read at neighbours.
+  if (state_.motion_for_neighbours.data == nullptr) state_.motion_for_neighbours = weights_.ref();
   halo_ = halo;
   add_halo_fields<D>(*halo_, state_);
   state_.halo = &*halo_;
@@ -64,14 +65,14 @@ void ProjectionMatrix<D>::allocate(LatticeLayout const* lattice) {
   for (Field* field : {&weights_, coefficients_.get()}) field->allocate_tiled(slots_);
   fields_.bind();
   s.mu = {};  // plain sums
-  s.second = s.stress;
+  s.stress_for_neighbours = s.stress;
   s.slots = {0, slots_};
   s.all_slots = slots_;
   state_.failure = &failure_;
   if (lattice != nullptr)
     state_.lattice = lattice->table();
   else
-    state_.first = state_.X;
+    state_.motion_for_neighbours = state_.X;
 }
 
 template <int D>

@@ -71,7 +71,7 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
   void add_velocities(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override;
 
   Diagnostics diagnose() const override {
-    NodalObservation all;
+    NodalDiagnosticsSum all;
     all.repeated_steps = repeated_;
     return diagnose_from(std::move(all));
   }
@@ -85,13 +85,13 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
   RunStatistics statistics() const override;
 
  private:
-  void refresh(NodalBody& body) const override {
+  void update_output_fields(NodalBody& body) const override {
     if (body.observed()) return;
     body.set_observed(true);
     FailureSlot failure;
     BodyState seen = body.state();
     seen.failure = &failure;
-    backend_.observe(seen);
+    backend_.update_output_fields(seen);
   }
   void describe(std::size_t body, FailureSlot const& slot, Failure& failure) const override;
   void replicate(NodalBody& body, Index slot) const override;
@@ -145,7 +145,7 @@ void Solver::add_velocities(std::span<std::int64_t const> ids, std::span<std::ar
 }
 
 void Solver::replicate(NodalBody& body, Index slot) const {
-  refresh(body);
+  update_output_fields(body);
   auto const& s = body.state();
   int const D = set_.dimension;
   for (auto const& [field, components] : {std::pair{s.x, D}, {s.v, D}, {s.F, D * D}, {s.cell, 4}})
@@ -154,7 +154,7 @@ void Solver::replicate(NodalBody& body, Index slot) const {
 
 void Solver::describe(std::size_t k, FailureSlot const& slot, Failure& f) const {
   NodalBody& body = *bodies_[k];
-  if (!comm::is_parallel()) refresh(body);
+  if (!comm::is_parallel()) update_output_fields(body);
   double const least = NodalBody::value(body.state().cell, slot.index, 2);
   f.what = least <= 0 ? "is inverted" : "has a deformation that is not a number";
   f.values = {{"least det F in its cell", least},

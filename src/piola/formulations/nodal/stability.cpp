@@ -254,7 +254,7 @@ double StabilityMonitor::unrest_at_start(Vector const& x, Vector const& rest, do
 
 void StabilityMonitor::measure(int cycles, bool at_start) {
   backend_.keep(body_.state());
-  backend_.observe(body_.state());
+  backend_.update_output_fields(body_.state());
   energy_ = std::max(energy_, body_.kinetic_energy() + body_.strain_energy());
   refresh_mode(body_, mode_);
   for (Index k = 0; k < body_.state().mirrored_count; ++k) {  // nothing moves across its mirror plane

@@ -56,8 +56,9 @@ struct BodyState : Fields {
   ListTable list;
   LatticeTable lattice;  ///< replaces the lists if particles fill a lattice
 
-  /// Neighbour data of the sweeps: records of X, x, mu, or of a lattice `products`; `stress`.
-  FieldRef first, second;
+  /// Values of a particle that its neighbours read, by the sweep that reads them: for the sums of the motion, records
+  /// of X, x and mu, or `products` on a lattice; for the sums of forces, `stress`.
+  FieldRef motion_for_neighbours, stress_for_neighbours;
 
   PrescribedDirection* held = nullptr;
   Index held_count = 0;
@@ -88,12 +89,12 @@ struct ProjectionFields {
 struct Backend {
   char const* name;
   int lanes;
-  void (*step)(BodyState& body, double dt);   ///< one step of one body
-  void (*accelerate)(BodyState& body);        ///< a of the internal forces alone, at x
-  void (*observe)(BodyState& body);           ///< the fields for observers, at x
-  double (*largest_change)(BodyState& body);  ///< of a strain since the last measurement of the step
-  void (*keep)(BodyState& body);              ///< saves x, v, a and the least J at the start of a step
-  void (*restore)(BodyState& body);           ///< restores them
+  void (*step)(BodyState& body, double dt);       ///< one step of one body
+  void (*accelerate)(BodyState& body);            ///< a of the internal forces alone, at x
+  void (*update_output_fields)(BodyState& body);  ///< computes F, P and cell, which steps do not
+  double (*largest_change)(BodyState& body);      ///< of a strain since the last measurement of the step
+  void (*keep)(BodyState& body);                  ///< saves x, v, a and the least J at the start of a step
+  void (*restore)(BodyState& body);               ///< restores them
   /// a = the matrix of the divergence theorem times x; masses are one.
   void (*project)(BodyState& body, ProjectionFields const& fields);
   /// Subtracts the gradient of positions at the particles from `offset`. `centroid`: of cells, relative to the

@@ -33,16 +33,17 @@ class Step {
   /// the last step, is given.
   void accelerate(double dt = -1) {
     sweep<false>(dt);
-    exec::for_each_item(b_.mirrored_count, KeepEven<D>{b_.mirrored, write(b_.second)});
+    exec::for_each_item(b_.mirrored_count, KeepEven<D>{b_.mirrored, write(b_.stress_for_neighbours)});
     sum_forces();
     exec::for_each_item(b_.mirrored_count, StayOnPlanes<D>{b_.mirrored, write(b_.a)});
   }
 
   /// a = M x with the matrix of the divergence theorem.
   void project(ProjectionFields const& f) {
-    ProjectQuadratic<D> const pass{read_reference(f.inverse), read_reference(b_.V), read(f.weights), read(b_.x),
-                                   write(f.coefficients),     write(b_.second),     write(b_.a)};
-    halo_.refresh(b_.x, b_.first);
+    ProjectQuadratic<D> const pass{
+        read_reference(f.inverse),       read_reference(b_.V), read(f.weights), read(b_.x), write(f.coefficients),
+        write(b_.stress_for_neighbours), write(b_.a)};
+    halo_.refresh(b_.x, b_.motion_for_neighbours);
     fused(b_.slots, exec::erased(pass));
     sum_forces();
   }
@@ -54,8 +55,8 @@ class Step {
     fused(b_.slots, exec::erased(pass));
   }
 
-  /// The fields for observers, of the cells at x.
-  void observe() { sweep<true>(-1); }
+  /// Computes the fields that steps leave as they are, for output and energies: F, P and cell at x.
+  void update_output_fields() { sweep<true>(-1); }
 
   void keep() const {
     exec::for_each(b_.slots, CopyMotion<D>{read(b_.x), read(b_.v), read(b_.a), write(b_.kept), write(b_.kept),
@@ -72,17 +73,19 @@ class Step {
 
  private:
   bool on_lattice() const { return b_.lattice.present != nullptr; }
-  ListSums<D> of_motion() const { return {b_.list, read_neighbours(b_.first).data, nullptr}; }
-  ListSums<D> of_stress() const { return {b_.list, read_neighbours(b_.first).data, read_neighbours(b_.second).data}; }
+  ListSums<D> of_motion() const { return {b_.list, read_neighbours(b_.motion_for_neighbours).data, nullptr}; }
+  ListSums<D> of_stress() const {
+    return {b_.list, read_neighbours(b_.motion_for_neighbours).data, read_neighbours(b_.stress_for_neighbours).data};
+  }
   LatticeSums<D> of_lattice() const {
     bool const corrected = b_.mu.data != nullptr;
     return {b_.lattice,
             b_.all_slots,
             read_neighbours(b_.x),
-            read(b_.first),
+            read(b_.motion_for_neighbours),
             read_reference(b_.own).stored,
             read(b_.mu),
-            read(b_.second),
+            read(b_.stress_for_neighbours),
             corrected};
   }
 
@@ -95,7 +98,7 @@ class Step {
   }
 
   void sum_forces() {
-    halo_.refresh(b_.second);
+    halo_.refresh(b_.stress_for_neighbours);
     if (on_lattice())
       exec::for_each_block(b_.slots,
                            SumLatticeForces<D>{of_lattice(), read_reference(b_.mass), read(b_.a), write(b_.a)});
@@ -113,7 +116,7 @@ class Step {
   }
 
   void turn_loads(bool at_end) {
-    halo_.refresh(b_.x, b_.first);
+    halo_.refresh(b_.x, b_.motion_for_neighbours);
     exec::for_each_item(b_.loaded_count, TurnLoads<D>{at_end, b_.loaded, b_.loaded_centroid, of_motion(),
                                                       read_reference(b_.g), read_reference(b_.k), read(b_.offset)});
   }
@@ -131,11 +134,11 @@ class Step {
   void prepare_motion() {
     halo_.refresh(b_.x);
     if (on_lattice()) {
-      MultiplyByCorrections<D> const multiply{read(b_.x), read(b_.mu), write(b_.first)};
+      MultiplyByCorrections<D> const multiply{read(b_.x), read(b_.mu), write(b_.motion_for_neighbours)};
       exec::for_each(b_.slots, multiply);
       exec::for_each_item(b_.ghost_count, MultiplyOthers<D>{multiply, b_.ghosts});
     }
-    halo_.refresh(b_.first);
+    halo_.refresh(b_.motion_for_neighbours);
   }
 
   template <bool Observed>
@@ -149,7 +152,7 @@ class Step {
   void update_stress(MaterialRange const& range, double dt) {
     Range const slots = groups_of(range);
     if (slots.first >= slots.last) return;
-    SharedLanes<D> const others(b_, group_of(range.first), range.first);
+    MixedMaterialLanes<D> const of_law_before(b_, group_of(range.first), range.first);
     Constants constants = range.constants;
     constants.least_share = b_.constants.least_share;
     auto const update_with = [&](auto const& law) {
@@ -167,7 +170,7 @@ class Step {
                                                   b_.marks,
                                                   read(b_.kept),
                                                   {dt, b_.viscosity, read(b_.viscous), write(b_.viscous)},
-                                                  write(b_.second),
+                                                  write(b_.stress_for_neighbours),
                                                   write(b_.a),
                                                   write(b_.change),
                                                   write(b_.F),
@@ -182,7 +185,7 @@ class Step {
       auto const wanted = Observed ? Cells::Wanted::as_left : dt < 0 ? Cells::Wanted::trial : Cells::Wanted::end;
       update_with(Cells(law, range, b_, maximum(dt, 0.0), wanted));
     });
-    others.put_back();
+    of_law_before.put_back();
   }
 
   static Index group_of(Index slot) { return slot - slot % lane_count; }

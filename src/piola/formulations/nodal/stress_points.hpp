@@ -132,7 +132,7 @@ struct UpdateStress {
       energy();
     if (!Observed && viscosity.on()) viscosity.template add<Law::small_strain>(i, at, energy);
     if constexpr (Observed)
-      observe(i, at, energy);
+      put_output_fields(i, at, energy);
     else {
       Lanes const allowed = constants.least_share * kept.template scalar<Lanes>(i, 3 * D);
       if (any(!(energy.least_J > maximum(allowed, Lanes(0.0))))) record_failure(i, energy.least_J, allowed);
@@ -222,7 +222,8 @@ struct UpdateStress {
     }
   }
 
-  PIOLA_FN void observe(Index i, CellPoints<D> const& at, CellEnergy<Law, points, Observed> const& energy) const {
+  PIOLA_FN void put_output_fields(Index i, CellPoints<D> const& at,
+                                  CellEnergy<Law, points, Observed> const& energy) const {
     F_out.matrix<D>(i, at.F);
     Mat<3, Lanes> P = (1.0 / points) * energy.P[0];
     for (int q = 1; q < points; ++q) P = P + (1.0 / points) * energy.P[q];

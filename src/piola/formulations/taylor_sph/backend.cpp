@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loops of Taylor-SPH for one machine; compiled once per instruction set (PIOLA_BACKEND).
+// The loops of Taylor-SPH for one back end; compiled once per instruction set (PIOLA_BACKEND).
 #include "piola/formulations/taylor_sph/step.hpp"
 #include "piola/kernels/list.hpp"
 

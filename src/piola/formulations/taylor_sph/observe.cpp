@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 13> offered{
 
 }  // namespace
 
-void observe(TaylorBody const& body, ParticleSet const& set, DiagnosticsSum& o) {
+void add_diagnostics(TaylorBody const& body, ParticleSet const& set, DiagnosticsSum& o) {
   std::vector<double> pressure;
   auto const& k = body.state().k;
   Particles const& particles = body.particles();

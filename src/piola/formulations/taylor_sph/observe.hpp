@@ -8,7 +8,7 @@
 /// Observed quantities of a Taylor-SPH state; read-only.
 namespace piola::taylor_sph {
 
-void observe(TaylorBody const& body, ParticleSet const& set, DiagnosticsSum& observation);
+void add_diagnostics(TaylorBody const& body, ParticleSet const& set, DiagnosticsSum& sum);
 
 /// Strain that is inconsistent with the stress, by particle; zeros in the fixed configuration.
 std::vector<double> strain_drift(TaylorBody const& body);

@@ -108,7 +108,7 @@ class Solver final : public Formulation, public ReplicatedObservables, public Co
     DiagnosticsSum all;
     std::array<double, 5> more{};
     for (auto const& body : bodies_) {
-      observe(*body, set_, all);
+      add_diagnostics(*body, set_, all);
       more[0] += body->state().filter_loss + body->state().exchange_loss;
       more[1] += static_cast<double>(body->remeshing().list_updates);
       more[2] += static_cast<double>(body->remeshing().triangulations);
