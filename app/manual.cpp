@@ -11,7 +11,6 @@
 #include "piola/materials/registry.hpp"
 #include "piola/materials/validity.hpp"
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <vector>
 

@@ -2,7 +2,6 @@
 #include "piola/materials/registry.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
 #include <gtest/gtest.h>
-#include <string_view>
 
 namespace piola {
 namespace {
