@@ -12,9 +12,7 @@
 #include "set_up_watch.hpp"
 #include "streams.hpp"
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cstdio>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <functional>

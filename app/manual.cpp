@@ -10,7 +10,6 @@
 #include "piola/kernels/registry.hpp"
 #include "piola/materials/registry.hpp"
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <vector>
 

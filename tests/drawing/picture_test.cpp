@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/drawing/picture.hpp"
 #include "piola/output/atomic_file.hpp"
+#include "support/read_png.hpp"
 #include "support/temporary_folder.hpp"
 #include <algorithm>
 #include <cmath>
@@ -42,7 +43,7 @@ TEST(Picture, HasTheSizeAskedForAndIsReadBackFromPng) {
   testing::TemporaryFolder const folder;
   Image const image = draw(Scene(), {400, 300, {}, {}});
   write_png(folder / "a.png", image);
-  Image const back = read_png(folder / "a.png");
+  Image const back = testing::read_png(folder / "a.png");
   EXPECT_EQ(back.width, 400);
   EXPECT_EQ(back.height, 300);
   EXPECT_EQ(back.rgb, image.rgb);
@@ -94,7 +95,7 @@ TEST(Picture, HasTheBackgroundOfItsTheme) {
   EXPECT_EQ(clear.at(170, 140), light.at(170, 140)) << "where the body is, nothing shines through";
   testing::TemporaryFolder const folder;
   write_png(folder / "clear.png", clear);
-  Image const back = read_png(folder / "clear.png");
+  Image const back = testing::read_png(folder / "clear.png");
   EXPECT_EQ(back.alpha, clear.alpha);
   EXPECT_EQ(back.rgb, clear.rgb);
 }
@@ -155,7 +156,7 @@ TEST(Picture, CarriesWhereItComesFrom) {
   EXPECT_TRUE(chunk("Range", "0 to 5000000 Pa"));
   EXPECT_TRUE(chunk("Software", "Piola "));
   EXPECT_TRUE(chunk("Case", "CRC-32 cbf43926")) << "the check value of CRC-32";
-  EXPECT_EQ(read_png(folder / "a.png").width, 300) << "libpng checks the sums of chunks";
+  EXPECT_EQ(testing::read_png(folder / "a.png").width, 300) << "libpng checks the sums of chunks";
 }
 
 TEST(Picture, IsCutWhereLettersStand) {

@@ -4,8 +4,6 @@
 #include "piola/simulation/build.hpp"
 #include "support/key_words.hpp"
 #include "support/sample_case.hpp"
-#include <algorithm>
-#include <cmath>
 #include <gtest/gtest.h>
 
 namespace piola {

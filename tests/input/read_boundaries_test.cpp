@@ -3,7 +3,6 @@
 #include "piola/model/case_particles.hpp"
 #include "piola/model/read_case.hpp"
 #include "support/sample_case.hpp"
-#include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
-#include <string>
 
 namespace piola::inline PIOLA_BACKEND {
 namespace {

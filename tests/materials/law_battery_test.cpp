@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <set>
-#include <string>
 
 namespace piola {
 namespace {

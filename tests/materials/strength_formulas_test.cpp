@@ -3,7 +3,6 @@
 #include "materials/solid_samples.hpp"
 #include <cmath>
 #include <gtest/gtest.h>
-#include <vector>
 
 namespace piola {
 namespace {

@@ -6,7 +6,6 @@
 #include "support/temporary_folder.hpp"
 #include <array>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>

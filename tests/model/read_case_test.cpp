@@ -4,7 +4,6 @@
 #include "support/sample_case.hpp"
 #include "support/temporary_folder.hpp"
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <numbers>

@@ -4,6 +4,7 @@
 #include "piola/simulation/run_case.hpp"
 #include "support/fake_formulation.hpp"
 #include "support/key_words.hpp"
+#include "support/read_png.hpp"
 #include "support/temporary_folder.hpp"
 #include <gtest/gtest.h>
 
@@ -28,7 +29,7 @@ TEST(Render, DrawsOnePictureForEachFrame) {
   auto const paths = render_frames(folder / "r", {.field = "Velocity", .look = small_pictures()});
   ASSERT_EQ(paths.size(), 5U);
   EXPECT_EQ(paths[4].filename(), "Velocity-000004.png");
-  Image const image = read_png(paths[4]);
+  Image const image = testing::read_png(paths[4]);
   EXPECT_EQ(image.width, 300);
   EXPECT_EQ(image.height, 250);
   EXPECT_THROW(render_frames(folder / "r", {.field = "Colour"}), InputError);
@@ -82,11 +83,11 @@ TEST(Render, DrawsComponentsWithTheRangeOfAllFrames) {
   auto const all = d.names();
   ASSERT_EQ(all.size(), 5u);
   EXPECT_EQ(all[2], "Velocity-y-000002.png");
-  Image const together = read_png(d.folder / "r/pictures/Velocity-y-000002.png");
+  Image const together = testing::read_png(d.folder / "r/pictures/Velocity-y-000002.png");
   d.options.only = {2};
   d.options.out = d.folder / "alone";
   d.names();
-  EXPECT_EQ(read_png(d.folder / "alone/Velocity-y-000002.png").rgb, together.rgb);
+  EXPECT_EQ(testing::read_png(d.folder / "alone/Velocity-y-000002.png").rgb, together.rgb);
   d.options.component = "xy";
   EXPECT_NE(d.refusal().find("Velocity has no component 'xy' (allowed: x, y, z)"), std::string::npos) << d.refusal();
 }
@@ -95,22 +96,22 @@ TEST(Render, TurnsThePictureSoThatTheAxisAskedForPointsUp) {
   Drawn d;
   d.options.only = {0};
   d.names();
-  Image const upright = read_png(d.folder / "r/pictures/Velocity-000000.png");
+  Image const upright = testing::read_png(d.folder / "r/pictures/Velocity-000000.png");
   d.options.look.emplace_back([](PictureSpec& p) { p.up = "-y"; });
   d.names();
-  EXPECT_NE(read_png(d.folder / "r/pictures/Velocity-000000.png").rgb, upright.rgb);
+  EXPECT_NE(testing::read_png(d.folder / "r/pictures/Velocity-000000.png").rgb, upright.rgb);
 }
 
 TEST(Render, DrawsMomentsIntoOnePicture) {
   Drawn d;
   auto const path = render_times(d.folder / "r", d.options, {0.3, 0.6, 10});
   EXPECT_EQ(path, d.folder / "r/pictures/Velocity-times.png");
-  Image const image = read_png(path);
+  Image const image = testing::read_png(path);
   EXPECT_EQ(image.width, 300);
   EXPECT_EQ(image.height, 250);
-  Image const other = read_png(render_times(d.folder / "r", d.options, {0.25, 0.5, 1}));
+  Image const other = testing::read_png(render_times(d.folder / "r", d.options, {0.25, 0.5, 1}));
   EXPECT_EQ(other.rgb, image.rgb) << "the same frames are the nearest";
-  EXPECT_NE(read_png(render_times(d.folder / "r", d.options, {0, 0.5, 1})).rgb, image.rgb);
+  EXPECT_NE(testing::read_png(render_times(d.folder / "r", d.options, {0, 0.5, 1})).rgb, image.rgb);
 }
 
 TEST(Render, DrawsRunsSideBySideAtEqualTimes) {
@@ -120,11 +121,11 @@ TEST(Render, DrawsRunsSideBySideAtEqualTimes) {
   d.options.beside = {d.folder / "twin"};
   d.options.look.emplace_back([](PictureSpec& p) { p.labels = false; });
   EXPECT_EQ(d.names().size(), 5u);
-  Image const image = read_png(d.folder / "both/Velocity-000004.png");
+  Image const image = testing::read_png(d.folder / "both/Velocity-000004.png");
   ASSERT_EQ(image.width, 300);
   d.options.only = {0};
   d.names();
-  EXPECT_NE(read_png(d.folder / "both/Velocity-000000.png").rgb, image.rgb);
+  EXPECT_NE(testing::read_png(d.folder / "both/Velocity-000000.png").rgb, image.rgb);
   d.options.beside = {d.folder / "none"};
   EXPECT_NE(d.refusal().find("none: has no frames to draw"), std::string::npos) << d.refusal();
 }
@@ -133,10 +134,10 @@ TEST(Render, DrawsSeveralFieldsBesideEachOther) {
   Drawn d;
   d.options.only = {3};
   EXPECT_EQ(d.names(), std::vector<std::string>{"Velocity-000003.png"});
-  Image const alone = read_png(d.folder / "r/pictures/Velocity-000003.png");
+  Image const alone = testing::read_png(d.folder / "r/pictures/Velocity-000003.png");
   d.options.more_fields = {"Displacement"};
   EXPECT_EQ(d.names(), std::vector<std::string>{"Velocity-Displacement-000003.png"});
-  Image const both = read_png(d.folder / "r/pictures/Velocity-Displacement-000003.png");
+  Image const both = testing::read_png(d.folder / "r/pictures/Velocity-Displacement-000003.png");
   EXPECT_EQ(both.width * both.height, 2 * alone.width * alone.height);
   int other = 0;
   for (int y = 0; y < 250; ++y)
@@ -166,7 +167,7 @@ TEST(Render, TakesTheLookAskedFor) {
   d.options.only = {4};
   auto const picture = [&] {
     d.names();
-    return read_png(d.folder / "r/pictures/Velocity-000004.png").rgb;
+    return testing::read_png(d.folder / "r/pictures/Velocity-000004.png").rgb;
   };
   auto const before = picture();
   PictureOverrides const looks{[](PictureSpec& p) { p.zoom = 2; },

@@ -3,7 +3,6 @@
 #include "piola/base/errors.hpp"
 #include "piola/model/read_case.hpp"
 #include "support/sample_case.hpp"
-#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace piola {

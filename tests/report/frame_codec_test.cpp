@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/report/frame_codec.hpp"
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 #include <random>
-#include <stdexcept>
 
 namespace piola::report {
 namespace {
@@ -28,18 +28,60 @@ FrameCodes some_frame(std::size_t particles, std::size_t fields, int number, int
   return frame;
 }
 
+double value_of(Lattice const& lattice, std::uint16_t code, std::size_t axis) {
+  return code == lattice.missing() ? none : lattice.low[axis] + code * lattice.step[axis];
+}
+
+double value_of(ByteScale const& scale, std::uint8_t code) {
+  return code == 0 ? none : scale.low + (code - 1) * (scale.high - scale.low) / 254;
+}
+
+/// Inverse of FrameCodec, as in the script of the page.
+class Decoder {
+ public:
+  FrameCodes decode(std::vector<std::uint8_t> const& bytes, std::size_t particles, std::size_t fields, bool key) {
+    if (key) known_ = 0;
+    FrameCodes frame;
+    for (std::size_t c = 0; c < 3; ++c) {
+      int residual = 0;
+      for (std::size_t i = 0; i < particles; ++i) {
+        std::size_t const at = 2 * c * particles + i;
+        int const folded = bytes[at] | bytes[at + particles] << 8;
+        residual += folded >> 1 ^ (folded & 1 ? 0xFFFF : 0);
+        int const expected = known_ == 0 ? 0 : known_ == 1 ? last_.x[c][i] : 2 * last_.x[c][i] - before_.x[c][i];
+        frame.x[c].push_back(static_cast<std::uint16_t>(residual + expected));
+      }
+    }
+    for (std::size_t f = 0; f < fields; ++f) {
+      auto& values = frame.fields.emplace_back();
+      for (std::size_t i = 0; i < particles; ++i) {
+        int const from = known_ > 0 ? last_.fields[f][i] : i > 0 ? values[i - 1] : 0;
+        values.push_back(static_cast<std::uint8_t>(bytes[(6 + f) * particles + i] + from));
+      }
+    }
+    before_ = last_;
+    last_ = frame;
+    known_ = std::min(known_ + 1, 2);
+    return frame;
+  }
+
+ private:
+  int known_ = 0;  ///< frames since the key frame, at most two
+  FrameCodes last_, before_;
+};
+
 TEST(Lattice, GivesBackPlacesToHalfACell) {
   Lattice const lattice = Lattice::of({-3, 0, 5}, {3, 0.1, 5}, 14);
   std::mt19937 random(7);
   std::uniform_real_distribution<double> share(0, 1);
   for (int k = 0; k < 10'000; ++k) {
     double const x = -3 + 6 * share(random), y = 0.1 * share(random);
-    EXPECT_LE(std::abs(lattice.value(lattice.code(x, 0), 0) - x), 6.0 / (1 << 14));
-    EXPECT_LE(std::abs(lattice.value(lattice.code(y, 1), 1) - y), 0.1 / (1 << 14));
+    EXPECT_LE(std::abs(value_of(lattice, lattice.code(x, 0), 0) - x), 6.0 / (1 << 14));
+    EXPECT_LE(std::abs(value_of(lattice, lattice.code(y, 1), 1) - y), 0.1 / (1 << 14));
   }
-  EXPECT_EQ(lattice.value(lattice.code(5, 2), 2), 5);  // a plane has one cell
-  EXPECT_EQ(lattice.value(lattice.code(-3, 0), 0), -3);
-  EXPECT_NEAR(lattice.value(lattice.code(3, 0), 0), 3, 1e-12);
+  EXPECT_EQ(value_of(lattice, lattice.code(5, 2), 2), 5);  // a plane has one cell
+  EXPECT_EQ(value_of(lattice, lattice.code(-3, 0), 0), -3);
+  EXPECT_NEAR(value_of(lattice, lattice.code(3, 0), 0), 3, 1e-12);
 }
 
 TEST(Lattice, HasNoPlaceForWhatIsOutsideOrNotFinite) {
@@ -47,7 +89,7 @@ TEST(Lattice, HasNoPlaceForWhatIsOutsideOrNotFinite) {
     Lattice const lattice = Lattice::of({0, 0, 0}, {1, 1, 1}, bits);
     for (double const x : {none, std::numeric_limits<double>::infinity(), -1e300, 1e300, -1.0, 2.0}) {
       EXPECT_EQ(lattice.code(x, 0), lattice.missing()) << x;
-      EXPECT_TRUE(std::isnan(lattice.value(lattice.code(x, 0), 0)));
+      EXPECT_TRUE(std::isnan(value_of(lattice, lattice.code(x, 0), 0)));
     }
     EXPECT_NE(lattice.code(1, 0), lattice.missing());
   }
@@ -56,11 +98,11 @@ TEST(Lattice, HasNoPlaceForWhatIsOutsideOrNotFinite) {
 TEST(ByteScale, SaturatesAndKnowsWhatIsNoNumber) {
   ByteScale const scale{-2, 6};
   EXPECT_EQ(scale.code(none), 0);
-  EXPECT_TRUE(std::isnan(scale.value(0)));
+  EXPECT_TRUE(std::isnan(value_of(scale, 0)));
   EXPECT_EQ(scale.code(-100), 1);
   EXPECT_EQ(scale.code(100), 255);
-  EXPECT_EQ(scale.value(255), 6);
-  for (double v = -2; v <= 6; v += 0.01) EXPECT_LE(std::abs(scale.value(scale.code(v)) - v), 0.5 * 8 / 254 + 1e-12);
+  EXPECT_EQ(value_of(scale, 255), 6);
+  for (double v = -2; v <= 6; v += 0.01) EXPECT_LE(std::abs(value_of(scale, scale.code(v)) - v), 0.5 * 8 / 254 + 1e-12);
   EXPECT_EQ((ByteScale{3, 3}.code(3)), 1);
 }
 
@@ -68,7 +110,8 @@ TEST(FrameCodec, GivesBackEveryCode) {
   for (std::size_t const particles : {0u, 1u, 2u, 777u})
     for (std::size_t const fields : {0u, 1u, 3u})
       for (int const bits : {2, 14, 16}) {
-        FrameCodec in, out;
+        FrameCodec in;
+        Decoder out;
         for (int k = 0; k < 23; ++k) {
           bool const key = k % FrameCodec::key_every == 0;
           FrameCodes const frame = some_frame(particles, fields, k, bits);
@@ -81,17 +124,13 @@ TEST(FrameCodec, GivesBackEveryCode) {
 }
 
 TEST(FrameCodec, NeedsNothingFromBeforeAKeyFrame) {
-  FrameCodec in, out;
+  FrameCodec in;
+  Decoder out;
   for (int k = 0; k < 10; ++k) in.encode(some_frame(50, 2, k, 14), k == 0);
   FrameCodes const key = some_frame(50, 2, 10, 14), next = some_frame(50, 2, 11, 14);
   auto const first = in.encode(key, true), second = in.encode(next, false);
   EXPECT_EQ(out.decode(first, 50, 2, true).x, key.x);
   EXPECT_EQ(out.decode(second, 50, 2, false).fields, next.fields);
-}
-
-TEST(FrameCodec, RefusesBytesOfAnotherFrame) {
-  FrameCodec out;
-  EXPECT_THROW(out.decode(std::vector<std::uint8_t>(48), 7, 1, true), std::invalid_argument);
 }
 
 TEST(FrameCodec, MakesSteadyMotionSmall) {

@@ -8,6 +8,7 @@
 #include "piola/simulation/run_summary.hpp"
 #include "support/fake_formulation.hpp"
 #include "support/key_words.hpp"
+#include "support/read_png.hpp"
 #include "support/scripted_run.hpp"
 #include "support/temporary_folder.hpp"
 #include <gtest/gtest.h>
@@ -142,12 +143,12 @@ TEST(RunCase, DrawsAllPicturesWithTheColoursOfTheWholeRun) {
   TemporaryFolder const folder;
   Simulation s = pictured();
   run(s, folder / "r");
-  Image const first = read_png(folder / "r/pictures/Displacement-000000.png");
-  EXPECT_EQ(bar_of(first), bar_of(read_png(folder / "r/pictures/Displacement-000003.png")));
+  Image const first = testing::read_png(folder / "r/pictures/Displacement-000000.png");
+  EXPECT_EQ(bar_of(first), bar_of(testing::read_png(folder / "r/pictures/Displacement-000003.png")));
   Simulation given = pictured();
   given.spec.output.pictures.range = std::array{0.0, 1.0};
   run(given, folder / "given");
-  EXPECT_NE(bar_of(first), bar_of(read_png(folder / "given/pictures/Displacement-000000.png")));
+  EXPECT_NE(bar_of(first), bar_of(testing::read_png(folder / "given/pictures/Displacement-000000.png")));
 }
 
 TEST(RunCase, WritesAFrameForEachPicture) {
@@ -235,14 +236,14 @@ TEST(RunCase, RemembersWhatIsTornOverAStop) {
   run(first, folder / "parts", false, &stop);
   run(second, folder / "parts", true);
   std::string const last = "pictures/Displacement-000004.png";
-  Image const image = read_png(folder / "whole" / last);
+  Image const image = testing::read_png(folder / "whole" / last);
   EXPECT_EQ(image.at(image.width / 2, image.height / 2), (Colour{255, 255, 255})) << "a gap between the halves";
   EXPECT_TRUE(text_of(folder / "whole" / last) == text_of(folder / "parts" / last));
 
   Simulation never = torn();  // has no picture of the moment when it is torn
   never.spec.output.pictures.every = 0.5;
   run(never, folder / "never");
-  Image const closed = read_png(folder / "never/pictures/Displacement-000002.png");
+  Image const closed = testing::read_png(folder / "never/pictures/Displacement-000002.png");
   EXPECT_NE(closed.at(closed.width / 2, closed.height / 2), (Colour{255, 255, 255}));
 }
 
@@ -284,9 +285,9 @@ TEST(RunCase, DrawsMomentsIntoOnePictureAtTheEnd) {
   run(other, folder / "other");
   run(none, folder / "none");
   std::string const strip = "pictures/Displacement-times.png";
-  Image const image = read_png(folder / "r" / strip);
-  EXPECT_EQ(image.rgb, read_png(folder / "other" / strip).rgb) << "the same pictures are the nearest";
-  EXPECT_GT(image.width, read_png(folder / "none/pictures/Displacement-000000.png").width);
+  Image const image = testing::read_png(folder / "r" / strip);
+  EXPECT_EQ(image.rgb, testing::read_png(folder / "other" / strip).rgb) << "the same pictures are the nearest";
+  EXPECT_GT(image.width, testing::read_png(folder / "none/pictures/Displacement-000000.png").width);
   EXPECT_FALSE(std::filesystem::exists(folder / "none" / strip));
   for (char const* number : {"000000", "000003"}) {
     auto const picture = std::string("pictures/Displacement-").append(number).append(".png");

@@ -118,6 +118,13 @@ bool is_name(std::string_view text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return is_letter(c) || is_digit(c); });
 }
 
+std::string_view without_blanks(std::string_view text) {
+  auto const blank = [](char c) { return c == ' ' || c == '\t'; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
 std::vector<std::string> to_strings(std::span<std::string_view const> words) { return {words.begin(), words.end()}; }
 
 std::string number_text(double value, int digits) {

@@ -34,6 +34,9 @@ std::string known_names_text(std::string_view wanted, std::span<std::string cons
 /// Whether the text is a name: letters, digits and underscores, not starting with a digit, at most 64 characters.
 bool is_name(std::string_view text);
 
+/// The text without spaces and tabs at its ends.
+std::string_view without_blanks(std::string_view text);
+
 /// Copies of views, for the functions above.
 std::vector<std::string> to_strings(std::span<std::string_view const> words);
 

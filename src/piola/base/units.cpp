@@ -141,15 +141,8 @@ struct Split {
   bool too_large = false;
 };
 
-std::string_view trimmed(std::string_view text) {
-  auto const blank = [](char c) { return c == ' ' || c == '\t'; };
-  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 Split split(std::string_view text) {
-  text = trimmed(text);
+  text = without_blanks(text);
   std::string_view digits = text;
   if (digits.starts_with('+')) digits.remove_prefix(1);
   // from_chars also takes "inf" and "nan", which no quantity of a case can be.
@@ -162,7 +155,7 @@ Split split(std::string_view text) {
   if (error == std::errc::invalid_argument) return result;
   result.too_large = error == std::errc::result_out_of_range;
   result.number = value;
-  result.unit = trimmed(digits.substr(static_cast<std::size_t>(end - digits.data())));
+  result.unit = without_blanks(digits.substr(static_cast<std::size_t>(end - digits.data())));
   return result;
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
-#include <span>
 #include <webp/encode.h>
 #include <webp/mux.h>
 

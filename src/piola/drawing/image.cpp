@@ -5,7 +5,6 @@
 #include "piola/output/atomic_file.hpp"
 #include "piola/output/checksum_trailer.hpp"
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <png.h>
 
@@ -14,15 +13,6 @@ namespace {
 
 std::size_t offset(Image const& image, int x, int y) {
   return 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
-}
-
-png_image png_header(int width, int height) {
-  png_image header{};
-  header.version = PNG_IMAGE_VERSION;
-  header.width = static_cast<png_uint_32>(width);
-  header.height = static_cast<png_uint_32>(height);
-  header.format = PNG_FORMAT_RGB;
-  return header;
 }
 
 /// Red, green, blue, opacity of each pixel.
@@ -54,14 +44,6 @@ void add_notes(std::vector<std::byte>& png, Image const& image) {
     append_number(chunks, sum.value());
   }
   png.insert(png.end() - end_chunk, chunks.begin(), chunks.end());
-}
-
-void take_apart(std::vector<std::uint8_t> const& mixed, Image& image) {
-  image.alpha.resize(mixed.size() / 4);
-  for (std::size_t i = 0; i < image.alpha.size(); ++i) {
-    for (std::size_t c = 0; c < 3; ++c) image.rgb[3 * i + c] = mixed[4 * i + c];
-    image.alpha[i] = mixed[4 * i + 3];
-  }
 }
 
 }  // namespace
@@ -100,8 +82,11 @@ void write_png(std::filesystem::path const& path, Image const& image) {
   PIOLA_EXPECTS(image.rgb.size() == 3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
   PIOLA_EXPECTS(image.alpha.empty() || 3 * image.alpha.size() == image.rgb.size());
   bool const opaque = image.alpha.empty();
-  png_image header = png_header(image.width, image.height);
-  if (!opaque) header.format = PNG_FORMAT_RGBA;
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  header.width = static_cast<png_uint_32>(image.width);
+  header.height = static_cast<png_uint_32>(image.height);
+  header.format = opaque ? PNG_FORMAT_RGB : PNG_FORMAT_RGBA;
   std::vector<std::uint8_t> const mixed = opaque ? std::vector<std::uint8_t>{} : with_alpha(image);
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
   std::vector<std::byte> bytes(size);
@@ -112,23 +97,6 @@ void write_png(std::filesystem::path const& path, Image const& image) {
   bytes.resize(size);
   add_notes(bytes, image);
   write_whole_file(path, bytes);
-}
-
-Image read_png(std::filesystem::path const& path) {
-  png_image header = png_header(0, 0);
-  bool good = png_image_begin_read_from_file(&header, path.c_str()) != 0;
-  Image image;
-  if (good) {
-    bool const opaque = (header.format & PNG_FORMAT_FLAG_ALPHA) == 0;
-    header.format = opaque ? PNG_FORMAT_RGB : PNG_FORMAT_RGBA;
-    image = Image(static_cast<int>(header.width), static_cast<int>(header.height), {0, 0, 0});
-    std::vector<std::uint8_t> mixed(opaque ? 0 : image.rgb.size() / 3 * 4);
-    good = png_image_finish_read(&header, nullptr, opaque ? image.rgb.data() : mixed.data(), 0, nullptr) != 0;
-    if (!opaque) take_apart(mixed, image);
-  }
-  if (!good)
-    throw FileError(fmt::format("{}: is not a PNG picture ({}) - check the file", path.string(), header.message));
-  return image;
 }
 
 }  // namespace piola

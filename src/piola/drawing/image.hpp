@@ -31,7 +31,5 @@ Image without_background(Image const& on_black, Image const& on_white);
 
 /// Writes a PNG file, with the notes as international text chunks. Throws FileError.
 void write_png(std::filesystem::path const& path, Image const& image);
-/// Reads a PNG file, without its notes. Throws FileError.
-Image read_png(std::filesystem::path const& path);
 
 }  // namespace piola

@@ -5,7 +5,6 @@
 #include "piola/exec/host_loops.hpp"
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace piola {
 namespace {

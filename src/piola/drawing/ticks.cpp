@@ -23,8 +23,9 @@ std::string tick_text(double value, int decimals, double largest) {
 
 }  // namespace
 
-std::vector<Tick> linear_ticks(double low, double high, int about) {
-  PIOLA_EXPECTS(low <= high && about >= 1);
+std::vector<Tick> linear_ticks(double low, double high) {
+  PIOLA_EXPECTS(low <= high);
+  constexpr int about = 5;  // marks
   double const rough = (high - low) / about;
   double const power = std::pow(10, std::floor(std::log10(rough)));
   // The step with which the number of marks comes nearest to what is wanted.

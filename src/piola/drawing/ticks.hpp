@@ -13,9 +13,8 @@ struct Tick {
       text;  ///< with a true minus sign (UTF-8), with the same number of decimals along an axis, or in powers of ten
 };
 
-/// Marks at multiples of 1, 2 or 5 times a power of ten within [low, high], `about` of them; for low < high, both
-/// finite. Two to nine for `about` = 5.
-std::vector<Tick> linear_ticks(double low, double high, int about = 5);
+/// Marks at multiples of 1, 2 or 5 times a power of ten within [low, high], two to nine; for low < high, both finite.
+std::vector<Tick> linear_ticks(double low, double high);
 /// Powers of ten within [low, high], thinned out to at most nine; for 0 < low < high. None if no power lies inside.
 std::vector<Tick> decade_ticks(double low, double high);
 

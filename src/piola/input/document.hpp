@@ -45,6 +45,8 @@ struct Node::Entry {
   Node value;
 };
 
+Node text_node(std::string_view text);
+
 /// A spelling of the previous minor release that a case uses, as a warning.
 struct OldSpelling {
   Place place;

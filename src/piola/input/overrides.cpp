@@ -20,6 +20,13 @@ bool Node::is_list_of_tables() const {
 
 Node* Node::find(std::string_view key) { return const_cast<Node*>(static_cast<Node const*>(this)->find(key)); }
 
+Node text_node(std::string_view text) {
+  Node node;
+  node.kind = Node::Kind::text;
+  node.text = text;
+  return node;
+}
+
 namespace {
 
 std::string_view trimmed(std::string_view text) {
@@ -55,13 +62,6 @@ struct Setting {
   std::vector<std::string> path;
   Node value;
 };
-
-Node text_node(std::string_view text) {
-  Node node;
-  node.kind = Node::Kind::text;
-  node.text = text;
-  return node;
-}
 
 // A text that looks like the start of a structured value must be TOML; any other text that is not TOML is a bare word.
 std::optional<Node> value_of(std::string_view text, Place const& place, Problems& problems) {

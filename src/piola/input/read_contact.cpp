@@ -3,7 +3,6 @@
 #include "piola/input/boundary_keys.hpp"
 #include "piola/input/sections.hpp"
 #include <algorithm>
-#include <array>
 
 namespace piola {
 namespace {

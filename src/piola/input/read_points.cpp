@@ -3,7 +3,6 @@
 #include "piola/input/case_files.hpp"
 #include "piola/input/read_solid.hpp"
 #include "piola/setup/cloud_file.hpp"
-#include <cmath>
 
 namespace piola {
 

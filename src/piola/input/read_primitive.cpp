@@ -14,17 +14,17 @@
 #include <numbers>
 
 namespace piola {
+Vec<3> first_three(std::vector<double> const& numbers) {
+  Vec<3> v;
+  for (std::size_t c = 0; c < std::min<std::size_t>(3, numbers.size()); ++c) v[static_cast<int>(c)] = numbers[c];
+  return v;
+}
+
 namespace {
 
 using geometry::SolidPtr;
 
 constexpr double default_feature_angle = std::numbers::pi / 6;
-
-Vec<3> three(std::vector<double> const& numbers) {
-  Vec<3> v;
-  for (std::size_t c = 0; c < std::min<std::size_t>(3, numbers.size()); ++c) v[static_cast<int>(c)] = numbers[c];
-  return v;
-}
 
 SolidPtr read_plain(Section const& section, std::string_view kind) {
   ShapeSpec shape;
@@ -59,7 +59,7 @@ std::optional<Vec<3>> place_in(Section const& section, std::string_view key, int
   if (!point) return {};
   if (point->size() == 3 || (flat && point->size() == 2)) {
     dimension = static_cast<int>(point->size());
-    return three(*point);
+    return first_three(*point);
   }
   section.problems().add(section.place_of(key), section.name_of(key) + " has " + std::to_string(point->size()) +
                                                     " components (allowed: " + (flat ? "2 or 3)" : "3)"));

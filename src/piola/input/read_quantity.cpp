@@ -7,7 +7,6 @@
 #include "piola/input/history_names.hpp"
 #include "piola/input/probe_kinds.hpp"
 #include "piola/input/sections.hpp"
-#include <algorithm>
 #include <array>
 
 namespace piola {

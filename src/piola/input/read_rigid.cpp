@@ -2,7 +2,6 @@
 #include "piola/base/text.hpp"
 #include "piola/input/boundary_keys.hpp"
 #include "piola/input/sections.hpp"
-#include <algorithm>
 #include <array>
 
 namespace piola {

@@ -4,7 +4,6 @@
 #include "piola/mechanics/rigid_mass.hpp"
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 /// How a rigid shape moves.
 namespace piola {

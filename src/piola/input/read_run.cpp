@@ -6,7 +6,6 @@
 #include "piola/input/output_keys.hpp"
 #include "piola/input/run_keys.hpp"
 #include "piola/input/sections.hpp"
-#include <algorithm>
 #include <limits>
 #include <span>
 

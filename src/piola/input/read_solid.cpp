@@ -24,12 +24,6 @@ constexpr std::array<std::string_view, 14> solid_kinds{"box",     "sphere",     
                                                        "capsule", "half_space", "formula",      "extrude", "revolve",
                                                        "union",   "difference", "intersection", "mesh"};
 
-Vec<3> vec_of(std::vector<double> const& numbers) {
-  Vec<3> v;
-  for (std::size_t c = 0; c < std::min<std::size_t>(3, numbers.size()); ++c) v[static_cast<int>(c)] = numbers[c];
-  return v;
-}
-
 /// Reads the tree of a shape. Null where something is wrong, which is then among the problems.
 class SolidReader {
  public:
@@ -142,7 +136,7 @@ class SolidReader {
           node.problems().add(section->place_of("move"),
                               section->name_of("move") + " has " + std::to_string(move->size()) +
                                   " components (allowed: " + std::to_string(solid->dimension()) + ")");
-        placing.move = vec_of(*move);
+        placing.move = first_three(*move);
       }
     }
     section->refuse_unknown();
@@ -167,7 +161,7 @@ class SolidReader {
       Vec<3> axis{{0, 0, 1}};
       if (dimension == 2) one.refuse("axis", "is used only in 3D");
       if (one.has("axis"))
-        if (auto const given = one.point("axis")) axis = vec_of(*given);
+        if (auto const given = one.point("axis")) axis = first_three(*given);
       double angle = 0;
       one.read("angle", angle);
       one.refuse_unknown();

@@ -30,6 +30,9 @@ geometry::SolidPtr solid_of(ShapeSpec const& shape);
 /// wrong, which is then among the problems. `spacing` [m] is the scale of a formula's differences.
 geometry::SolidPtr read_primitive(Section const& section, std::string_view kind, Names const& names, double spacing);
 
+/// Up to three numbers as a vector; zero for those that are missing.
+Vec<3> first_three(std::vector<double> const& numbers);
+
 /// Parts that shapes of both kinds read, internal to input/.
 void read_box(Section const& section, ShapeSpec& shape);
 void read_sphere(Section const& section, ShapeSpec& shape);

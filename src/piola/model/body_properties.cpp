@@ -79,9 +79,9 @@ std::vector<BodyProperties> body_properties(CaseSpec const& spec, ParticleSet co
   return all;
 }
 
-double step_estimate(CaseSpec const& spec, std::vector<BodyProperties> const& facts, double default_cfl) {
+double step_estimate(CaseSpec const& spec, std::vector<BodyProperties> const& facts) {
   PIOLA_EXPECTS(facts.size() <= spec.bodies.size());
-  double const cfl = std::isnan(spec.run.cfl) ? default_cfl : spec.run.cfl;
+  double const cfl = std::isnan(spec.run.cfl) ? 0.3 : spec.run.cfl;
   double step = spec.run.max_step;
   for (std::size_t b = 0; b < facts.size(); ++b) {
     step = std::min(step, cfl * smallest_spacing(facts[b], spec.bodies[b].shape.dimension) / facts[b].p_wave);

@@ -34,7 +34,7 @@ double smallest_spacing(BodyProperties const& body, int dimension);
 
 /// Step that waves at rest allow: cfl * smallest spacing / largest wave speed [s]. What the formulation really takes
 /// may be smaller.
-double step_estimate(CaseSpec const& spec, std::vector<BodyProperties> const& facts, double default_cfl = 0.3);
+double step_estimate(CaseSpec const& spec, std::vector<BodyProperties> const& facts);
 
 /// Reports allowed but implausible numbers (units, a missing zero, a body too thin) by the rules of
 /// input/plausibility.hpp, one sentence each with its place in the file. `step` is the expected time step [s].

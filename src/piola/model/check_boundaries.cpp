@@ -3,7 +3,6 @@
 #include "piola/base/text.hpp"
 #include "piola/model/case_particles.hpp"
 #include "piola/model/region_checks.hpp"
-#include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>

@@ -4,7 +4,6 @@
 #include "piola/math/array_conversion.hpp"
 #include "piola/mechanics/contact/rigid_surface.hpp"
 #include "piola/model/region_checks.hpp"
-#include <algorithm>
 #include <array>
 #include <cmath>
 

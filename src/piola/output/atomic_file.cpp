@@ -196,10 +196,10 @@ int SharedFile::close() noexcept {
   return error_;
 }
 
-void write_whole_file(std::filesystem::path const& path, std::span<std::byte const> content, std::string_view end) {
+void write_whole_file(std::filesystem::path const& path, std::span<std::byte const> content) {
   AtomicFile file(path);
   file.write(0, content);
-  file.finish(content.size(), end);
+  file.finish(content.size());
 }
 
 void write_whole_file(std::filesystem::path const& path, std::string_view content) {

@@ -83,8 +83,8 @@ class SharedFile {
   To to_;
 };
 
-/// Writes a file as a whole, as AtomicFile. Throws FileError with path, reason and advice. `end` follows the content.
-void write_whole_file(std::filesystem::path const& path, std::span<std::byte const> content, std::string_view end = {});
+/// Writes a file as a whole, as AtomicFile. Throws FileError with path, reason and advice.
+void write_whole_file(std::filesystem::path const& path, std::span<std::byte const> content);
 void write_whole_file(std::filesystem::path const& path, std::string_view content);
 
 /// Replaces the last `old_end` bytes of a file of `size` bytes by a longer text, in one write, and waits until it is on

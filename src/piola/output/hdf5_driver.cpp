@@ -4,7 +4,6 @@
 #include "piola/output/hdf5_types.hpp"
 #include <algorithm>
 #include <iterator>
-#include <span>
 
 #if __has_include(<H5FDdevelop.h>)  // from HDF5 1.13 on what drivers need has a header of its own
 #include <H5FDdevelop.h>

@@ -18,15 +18,12 @@ struct Lattice {
   static Lattice of(std::array<double, 3> const& low, std::array<double, 3> const& high, int bits);
   std::uint16_t missing() const { return static_cast<std::uint16_t>((1u << bits) - 1); }
   std::uint16_t code(double value, std::size_t axis) const;
-  /// Decoded value, within step / 2 of the coded one; NaN if it is missing.
-  double value(std::uint16_t code, std::size_t axis) const;
 };
 
 /// One byte for the value of a field: 0 none, 1 and 255 also for all beyond the ends, linear between.
 struct ByteScale {
   double low = 0, high = 0;
   std::uint8_t code(double value) const;
-  double value(std::uint8_t code) const;
 };
 
 /// Codes of one state in a page; all lists have one entry per particle.
@@ -35,7 +32,7 @@ struct FrameCodes {
   std::vector<std::vector<std::uint8_t>> fields;
 };
 
-/// Encodes frames as bytes that compress well, and decodes them. A key frame is independent. Other frames are
+/// Encodes frames as bytes that compress well. A key frame is independent. Other frames are
 /// differences to a prediction from the previous frame, or by linear extrapolation from the previous two. Then follows
 /// the difference to the particle before, signs folded into the lowest bit, low bytes of an axis before high ones. All
 /// modulo 2^16, so that nothing is lost.
@@ -44,13 +41,9 @@ class FrameCodec {
   static constexpr int key_every = 10;
   /// The bytes of the next frame; it becomes a key frame if `key`, or if there are other particles than before.
   std::vector<std::uint8_t> encode(FrameCodes const& frame, bool key);
-  /// The next frame of `particles` particles and `fields` fields. Throws std::invalid_argument if the bytes are too few
-  /// or too many.
-  FrameCodes decode(std::span<std::uint8_t const> bytes, std::size_t particles, std::size_t fields, bool key);
 
  private:
   std::uint16_t expected(std::size_t axis, std::size_t i) const;
-  void keep(FrameCodes frame, bool key);
   int known_ = 0;  ///< frames since the key frame, at most two
   FrameCodes last_, before_;
 };

@@ -11,13 +11,6 @@ namespace {
 
 constexpr std::string_view cloud_example = "such as \"x [mm],y [mm],z [mm],volume [mm^3]\"";
 
-std::string_view without_blanks(std::string_view text) {
-  auto const blank = [](char c) { return c == ' ' || c == '\t'; };
-  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 /// The end of a text in quotation marks that starts at `from`: the mark that is not followed by another one.
 std::size_t closing_mark(std::string_view line, std::size_t from) {
   std::size_t at = line.find('"', from + 1);

@@ -12,7 +12,6 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
-#include <exception>
 #include <fmt/format.h>
 #include <limits>
 #include <thread>

@@ -38,13 +38,6 @@ Node whole_number(int number) {
   return node;
 }
 
-Node text_node_of(std::string const& text) {
-  Node node;
-  node.kind = Node::Kind::text;
-  node.text = text;
-  return node;
-}
-
 Node scaled_counts(ShapeSpec const& shape, double factor) {
   Node list;
   list.kind = Node::Kind::array;
@@ -107,7 +100,7 @@ std::string quantity_setting(std::filesystem::path const& file, std::vector<std:
         name.begin(), name.end(), [](char c) { return c == '.' || c == '-'; }, '_');
     Node quantity;
     quantity.entries = {
-        {"name", {}, text_node_of(name)}, {"column", {}, text_node_of(column)}, {"take", {}, text_node_of(take)}};
+        {"name", {}, text_node(name)}, {"column", {}, text_node(column)}, {"take", {}, text_node(take)}};
     list.items.push_back(std::move(quantity));
   }
   return "quantity=" + toml_value(list);

@@ -8,11 +8,9 @@
 #include "piola/study/study.hpp"
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
 
 namespace piola {

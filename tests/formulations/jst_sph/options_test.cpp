@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/jst_sph/options.hpp"
 #include "piola/base/errors.hpp"
-#include <cmath>
 #include <gtest/gtest.h>
 
 namespace piola::jst_sph {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/rigid_surface.hpp"
-#include <cmath>
 #include <gtest/gtest.h>
 
 namespace piola::contact {

@@ -7,7 +7,6 @@
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace piola::adaptle {
 namespace {
