@@ -38,7 +38,8 @@ FieldNeeds field_needs(Options const& o, bool mirrored) {
           .volume = evolves_volume(o.variables),
           .smoothed_volume = o.smoothed_volume(),
           .filter = o.filter,
-          .mirrored = mirrored};
+          .mirrored = mirrored,
+          .viscous = o.viscous};
 }
 
 }  // namespace
