@@ -121,18 +121,6 @@ TEST(SaintVenantKirchhoff, GivesWayUnderCompressionWhereItsDocumentationSays) {
   EXPECT_NEAR(push(l), -1 / std::sqrt(3.0), round_off);
 }
 
-TEST(KelvinVoigt, HasTheViscousStressOfItsFormulaInAStretchAndNoneInARotation) {
-  // F = diag(2,1,1), F_dot = diag(3,0,0) 1/s: E_dot = diag(6,0,0), P_v = 2 eta F E_dot = diag(24,0,0) eta.
-  double const all[] = {1, 2.5, 0.25, 0.5};
-  KelvinVoigt const law(all);
-  Mat<3> const F = diagonal(2, 1, 1), P = law.viscous_stress(F, diagonal(3, 0, 0));
-  EXPECT_NEAR(P(0, 0), 12, round_off);
-  EXPECT_EQ(P(1, 1), 0);
-  EXPECT_EQ(P(0, 1), 0);
-  Mat<3> const spin{{0, -7, 2, 7, 0, 5, -2, -5, 0}};
-  EXPECT_LT(testing::size(law.viscous_stress(F, spin * F)), round_off);
-}
-
 TEST(CompressibleNeoHookean, HasTheValuesOfItsFormulaInAStretchByE) {
   // ln J = 1, lambda ln J - mu = 0: P = F
   CompressibleNeoHookean const law(values);

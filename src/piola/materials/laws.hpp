@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/materials/hyperelastic/compressible_neo_hookean.hpp"
-#include "piola/materials/hyperelastic/kelvin_voigt.hpp"
 #include "piola/materials/hyperelastic/linear_elastic.hpp"
 #include "piola/materials/hyperelastic/mooney_rivlin.hpp"
 #include "piola/materials/hyperelastic/neo_hookean.hpp"
@@ -37,12 +36,6 @@ template <class Law> concept SplitsVolume = requires(Law const& law, Mat<3> cons
   { law.volume_ratio(F) } -> std::same_as<double>;
 };
 
-/// Additional interface of a law with a stress that the rate of F makes, proportional to `eta` [Pa s].
-template <class Law> concept Viscous = requires(Law const& law, Mat<3> const& F) {
-  { law.viscous_stress(F, F) } -> std::same_as<Mat<3>>;
-  { law.eta } -> std::convertible_to<double>;
-};
-
 /// Interface of a law for formulations that evolve the stress, in rate form.
 template <class Law> concept RateForm = requires(Law const& law, SymMat<3> const& d) {
   { law.stress_rate(d) } -> std::same_as<SymMat<3>>;
@@ -60,8 +53,7 @@ struct LawList {
 };
 
 /// The registered laws. Adding one: its header and one name here; its battery of tests is automatic.
-using Laws =
-    LawList<LinearElastic, NeoHookean, MooneyRivlin, SaintVenantKirchhoff, CompressibleNeoHookean, KelvinVoigt>;
+using Laws = LawList<LinearElastic, NeoHookean, MooneyRivlin, SaintVenantKirchhoff, CompressibleNeoHookean>;
 
 template <class F, class... Law>
 void with_law(MaterialParameters const& material, F const& f, LawList<Law...>) {
@@ -73,15 +65,6 @@ void with_law(MaterialParameters const& material, F const& f, LawList<Law...>) {
 template <class F>
 void with_law(MaterialParameters const& material, F const& f) {
   with_law(material, f, Laws{});
-}
-
-/// Shear viscosity of a material [Pa s]; 0 without viscosity.
-inline double shear_viscosity(MaterialParameters const& material) {
-  double eta = 0;
-  with_law(material, [&](auto const& law) {
-    if constexpr (Viscous<std::decay_t<decltype(law)>>) eta = law.eta;
-  });
-  return eta;
 }
 
 }  // namespace piola::inline PIOLA_BACKEND

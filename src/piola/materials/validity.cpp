@@ -18,8 +18,7 @@ constexpr std::array validities{
     Validity{"neo_hookean", "rubber, nearly incompressible, J > 0"},
     Validity{"mooney_rivlin", "rubber, nearly incompressible, J > 0"},
     Validity{"saint_venant_kirchhoff", "large rotation, moderate strain: stretches above 0.6"},
-    Validity{"compressible_neo_hookean", "large strain with change of volume, Poisson's ratio from 0 on, J > 0"},
-    Validity{"kelvin_voigt", "rubber, nearly incompressible, J > 0"}};
+    Validity{"compressible_neo_hookean", "large strain with change of volume, Poisson's ratio from 0 on, J > 0"}};
 
 }  // namespace
 

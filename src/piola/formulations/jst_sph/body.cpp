@@ -38,8 +38,7 @@ FieldNeeds field_needs(Options const& o, bool mirrored) {
           .volume = evolves_volume(o.variables),
           .smoothed_volume = o.smoothed_volume(),
           .filter = o.filter,
-          .mirrored = mirrored,
-          .viscous = o.viscous};
+          .mirrored = mirrored};
 }
 
 }  // namespace

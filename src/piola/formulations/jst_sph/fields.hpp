@@ -13,7 +13,6 @@ struct FieldNeeds {
   bool smoothed_volume = false;  ///< and is stabilised
   bool filter = false;           ///< the volumetric energy is filtered
   bool mirrored = false;         ///< mirror planes
-  bool viscous = false;          ///< the law has a viscous stress
 };
 
 /// The one list of JST-SPH's particle fields, and what loops get of them. Memory and checkpoints follow from it; what
@@ -61,7 +60,6 @@ struct Fields {
   ListedRef w_J{owner, "VolumeStabilisationArgument", "1", 1, Role::derived, has.smoothed_volume};
 
   // Within a step.
-  ListedRef F_rate{owner, "DeformationGradientRate", "1/s", dimension* dimension, Role::derived, has.viscous};
   ListedRef stage_position{owner, "StagePosition", "m", dimension, Role::derived, has.displacement};
   ListedRef v_n{owner, "VelocityAtStepStart", "m/s", dimension, Role::derived, !has.verlet};
   ListedRef F_star{owner, "DeformationGradientOfStage", "1", dimension* dimension, Role::derived, !has.verlet};

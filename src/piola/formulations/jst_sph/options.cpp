@@ -144,11 +144,6 @@ Options read_options(FormulationSpec const& spec, MaterialParameters const& mate
   });
   if (!known) throw InputError("material: jst_sph has hyperelastic laws alone - take the formulation nodal");
   o.cfl = !std::isnan(cfl) ? cfl : verlet ? 0 : 0.3;
-  o.viscous = shear_viscosity(material) > 0;
-  if (o.viscous && !verlet)
-    throw InputError(
-        "formulation: kelvin_voigt needs the rate of F at the end of a step (allowed: scheme = \"filtered\" with "
-        "variables = \"pF\") - leave scheme and variables out");
   check(o, paper);
   return o;
 }

@@ -17,7 +17,6 @@ struct Options {
   double laplacian_support = 0;   ///< h of the Laplacian in particle spacings
   Integrator integrator = Integrator::verlet;
   bool filter = false;       ///< filter the volumetric energy: scheme "filtered", nearly incompressible materials
-  bool viscous = false;      ///< the law has a viscous stress
   bool project = true;       ///< angular and linear momentum projection
   bool exact_speed = false;  ///< p-wave speed from the law's tangent
   bool multipliers = false;  ///< exact boundary values (Appendix B)

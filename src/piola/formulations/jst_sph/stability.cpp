@@ -168,7 +168,6 @@ BodyState trial_of(JstBody& body, FailureSlot& failure) {
   trial.multipliers = nullptr;
   trial.trial = true;
   trial.constants.project = false;
-  trial.F_rate = FieldRef{};  // viscous forces are no part of the stiffness
   return trial;
 }
 
@@ -235,12 +234,7 @@ void StabilityMonitor::update(double wave_speed) {
 double StabilityMonitor::step(double wave_speed) const {
   // A lower wave speed does not lower the frequency: the largest one may have been elsewhere than the fastest mode.
   double const measured = frequency_ * std::max(1.0, wave_speed / wave_speed_);
-  double const frequency = std::max(measured, trust * frequency_per_speed_ * wave_speed);
-  auto const& material = body_.state().material;
-  double mu = 0;
-  with_law(material, [&](auto const& law) { mu = law.mu; });
-  double const viscous = frequency * frequency * shear_viscosity(material) / mu;  // of shear modes, which have the most
-  return largest_step(frequency, damping_ * wave_speed + viscous);
+  return largest_step(std::max(measured, trust * frequency_per_speed_ * wave_speed), damping_ * wave_speed);
 }
 
 std::vector<double> StabilityMonitor::state() const {

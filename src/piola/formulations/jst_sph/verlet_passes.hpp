@@ -37,7 +37,7 @@ struct Deform {
   RigidRate without_rigid;
   ReferenceView C, V;
   View F_in, wave_speed_in;
-  WriteView F, F_rate, wave_speed, volume_ratio, w, rate;
+  WriteView F, wave_speed, volume_ratio, w, rate;
   View filter_scale;
   WriteView filter_source;  ///< neighbour data of the first filter pass: g = d V J
   FailureSlot* failure;
@@ -46,7 +46,6 @@ struct Deform {
     Mat<D, Lanes> const gradient = raw_gradient<D>(in, i) * C.symmetric<D, Lanes>(i);
     Mat<D, Lanes> const next = F_in.matrix<D, Lanes>(i) + dt * gradient;
     F.matrix<D>(i, next);
-    if (F_rate.data != nullptr) F_rate.matrix<D>(i, gradient);
     Mat<3, Lanes> const full = embed<D>(next);
     Lanes const J = determinant(full);
     record_inverted(failure, i, J);
@@ -84,15 +83,11 @@ struct WeightStress {
   Law law;
   Constants k;
   ReferenceView C, V;
-  View F, F_rate, volume_ratio, filtered_pressure;
+  View F, volume_ratio, filtered_pressure;
   WriteView A;
 
   PIOLA_FN void operator()(Index i) const {
-    Mat<3, Lanes> const full = embed<D>(F.matrix<D, Lanes>(i));
-    Mat<3, Lanes> P_full = stress(i, full);
-    if constexpr (Viscous<Law>)
-      if (F_rate.data != nullptr) P_full = P_full + law.viscous_stress(full, embed_rate<D>(F_rate.matrix<D, Lanes>(i)));
-    Mat<D, Lanes> const P = restrict_to<D>(P_full);
+    Mat<D, Lanes> const P = restrict_to<D>(stress(i, embed<D>(F.matrix<D, Lanes>(i))));
     A.matrix<D>(i, (V.scalar<Lanes>(i) * (1.0 / k.kernel_volume)) * (P * C.symmetric<D, Lanes>(i)));
   }
 
@@ -105,20 +100,6 @@ struct WeightStress {
       }
     }
     return law.first_piola(full);
-  }
-};
-
-/// Power of the viscous stress of a particle, V P_v : F_dot [W], summed.
-template <int D, class Law>
-struct ViscousPower {
-  Law law;
-  ReferenceView V;
-  View F, F_rate;
-
-  PIOLA_FN void operator()(Index i, Lanes* total) const {
-    Mat<3, Lanes> const rate = embed_rate<D>(F_rate.matrix<D, Lanes>(i));
-    total[0] =
-        total[0] + V.scalar<Lanes>(i) * contract(law.viscous_stress(embed<D>(F.matrix<D, Lanes>(i)), rate), rate);
   }
 };
 

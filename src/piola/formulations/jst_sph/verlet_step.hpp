@@ -30,7 +30,6 @@ class VerletStep {
       Filter<Loader>(b_, loader_)();  // q = B* kappa_f (B J - 1)
       weight_stress();                // P(F, kappa_l (J - 1) + q), A
     }
-    if (b_.has.viscous && !b_.trial) count_viscous_loss(dt);
     halo_.refresh(b_.second);
     RigidRate const balance = forces_(dt, &b_.wave_speed).rigid;  // -T + D at n + 1
     add_loads(dt);                                                // E at n + 1
@@ -78,7 +77,6 @@ class VerletStep {
                             read(b_.F),
                             read(b_.wave_speed),
                             write(b_.F),
-                            write(b_.F_rate),
                             write(b_.wave_speed),
                             write(b_.volume_ratio),
                             write(b_.w),
@@ -92,21 +90,10 @@ class VerletStep {
     });
   }
 
-  void count_viscous_loss(double dt) {
-    with_law(b_.material, [&](auto const& law) {
-      using Law = std::decay_t<decltype(law)>;
-      if constexpr (Viscous<Law>) {
-        ViscousPower<D, Law> const pass{law, read_reference(b_.V), read(b_.F), read(b_.F_rate)};
-        b_.totals.stabilisation_loss += dt * reduce_over_ranks<1>(b_.halo != nullptr, b_.slots, pass, b_.partial).v[0];
-      }
-    });
-  }
-
   template <class Law>
   WeightStress<D, Law> stress_pass(Law const& law) {
-    return {law,        b_.constants,    read_reference(b_.C),  read_reference(b_.V),
-            read(b_.F), read(b_.F_rate), read(b_.volume_ratio), read(b_.filtered_pressure),
-            write(b_.A)};
+    return {law,        b_.constants,          read_reference(b_.C),       read_reference(b_.V),
+            read(b_.F), read(b_.volume_ratio), read(b_.filtered_pressure), write(b_.A)};
   }
   void weight_stress() {
     with_law(b_.material, [&](auto const& law) { exec::for_each(b_.slots, stress_pass(law)); });

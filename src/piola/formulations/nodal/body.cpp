@@ -73,7 +73,7 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
       images_(images_of(assembly, body, body_, order_)),
       materials_(materials_of(assembly, body), set, body_, order_, options),
       state_(&fields_, set.dimension,
-             {.viscosity = options.fluctuation_viscosity > 0 || options.shock_viscosity > 0 || options.viscous,
+             {.viscosity = options.fluctuation_viscosity > 0 || options.shock_viscosity > 0,
               .solids = options.solids,
               .offset = !assembly.initial_deformation_gradient.empty()}) {
   state_.slots = even_range_of_rank(order_.slots(), comm::rank(), comm::size());

@@ -38,11 +38,10 @@ void BodyMaterials::attach(BodyState& state, Body const& body, Options const& op
   for (MaterialRange const& range : ranges_)
     state.constants.unit_step = std::min(state.constants.unit_step, range.constants.unit_step);
   if (state.has.viscosity && ranges_.size() > 1)
-    throw InputError(
-        fmt::format("body '{}': fluctuation_viscosity, shock_viscosity and shear_viscosity are those of one material "
-                    "(allowed: 0 for a body with "
-                    "parts) - leave them out, or make the parts bodies and tie them",
-                    body.name));
+    throw InputError(fmt::format(
+        "body '{}': fluctuation_viscosity and shock_viscosity are those of one material (allowed: 0 for a body with "
+        "parts) - leave them out, or make the parts bodies and tie them",
+        body.name));
   state.viscosity = viscosity(state, body, options);
 }
 
@@ -55,7 +54,7 @@ ViscousConstants BodyMaterials::viscosity(BodyState const& state, Body const& bo
     double const speed = std::sqrt((state.constants.kappa_local + 4 * law.mu / 3) / law.rho0);
     viscosity = {options.fluctuation_viscosity * law.rho0 * h * speed,
                  options.shock_viscosity * 0.06 * law.rho0 * h * law.p_wave_speed(),
-                 options.shock_viscosity * 1.2 * law.rho0 * h * h, shear_viscosity(ranges_.front().material)};
+                 options.shock_viscosity * 1.2 * law.rho0 * h * h};
   });
   return viscosity;
 }

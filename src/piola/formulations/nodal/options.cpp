@@ -90,20 +90,13 @@ Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters
   Problems problems;
   bool const stress_free = is_stress_free(word_of(spec, choices, "assumption"), dimension, false, problems);
   bool solids = false;
-  bool viscous = false;
   for (MaterialParameters const& material : materials) {
-    viscous = viscous || shear_viscosity(material) > 0;
     if (!is_hypoelastic(material)) continue;
     check_solid(material, stress_free, problems);
     solids = true;
   }
-  if (viscous && stress_free)
-    problems.add({},
-                 "formulation: assumption leaves lateral stresses to a solution that has no viscous stress (allowed "
-                 "for kelvin_voigt: as_dimension, plane_strain, uniaxial_strain) - leave it out");
   problems.raise_if_any();
   Options o;
-  o.viscous = viscous;
   o.least_mass = number_of(spec, "min_mass_ratio", 0.3);
   o.fluctuation_viscosity = number_of(spec, "fluctuation_viscosity", 0);
   o.shock_viscosity = number_of(spec, "shock_viscosity", 0);

@@ -10,7 +10,6 @@ namespace piola::nodal {
 struct Options {
   double least_mass = 0.3;                                ///< of a particle, over that of its cell
   double fluctuation_viscosity = 0, shock_viscosity = 0;  ///< see Viscosity
-  bool viscous = false;                                   ///< whether the law has a viscous stress
   double energy_tolerance = 1e-3;  ///< error of Verlet steps, relative to the largest energy; 0: any
   bool solids = false;             ///< whether some material is a solid in rate form
   bool stress_free = false;        ///< plane stress, uniaxial stress

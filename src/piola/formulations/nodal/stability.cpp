@@ -320,9 +320,7 @@ double StabilityMonitor::step_at(double fraction) const {
   if (is_given()) return body_.options().cfl * body_.state().constants.unit_step;
   // Viscous forces of the last step reduce the limit: sqrt(1 + xi^2) - xi, with xi their fraction of critical damping.
   auto const& s = body_.state();
-  double const xi = 0.5 * frequency() *
-                    (s.viscosity.fluctuation / (s.constants.kappa_local + 4 * s.constants.mu / 3) +
-                     s.viscosity.material / s.constants.mu);
+  double const xi = 0.5 * frequency() * s.viscosity.fluctuation / (s.constants.kappa_local + 4 * s.constants.mu / 3);
   return step_reduction_ * fraction * (std::sqrt(1 + xi * xi) - xi) * 2 / frequency();
 }
 

@@ -36,7 +36,6 @@ struct MaterialRange {
 struct ViscousConstants {
   double fluctuation;                    ///< [Pa s]
   double shock_linear, shock_quadratic;  ///< [Pa s], [Pa s2]
-  double material;                       ///< shear viscosity of the law [Pa s]
 };
 
 /// A particle on mirror planes; a bit for each of their axes.

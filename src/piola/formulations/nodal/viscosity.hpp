@@ -17,7 +17,7 @@ struct ViscousHistory {
 };
 
 /// Adds to the stresses of the points
-///   F_q S_q,  S_q = (2 eta_law dE_q + eta (dE_q - mean dE)) / dt,   and   -Q cof F_q,  Q = -linear r + quadratic r^2 if r = dJm/dt < 0,
+///   F_q S_q,  S_q = eta (dE_q - mean dE) / dt,   and   -Q cof F_q,  Q = -linear r + quadratic r^2 if r = dJm/dt < 0,
 /// and their dissipation: (S + S of the step before) : dE / 2 and the same of Q, as the motion loses it in a step.
 template <int D>
 struct Viscosity {
@@ -47,11 +47,10 @@ struct Viscosity {
     Lanes loss = before.scalar<Lanes>(i, At::loss);
     for (int q = 0; q < At::points; ++q) {
       SymMat<D, Lanes> S;
-      double const of_law = 2 * constants.material * rate;
       for (int c = 0; c < At::strain; ++c) {
         int const place = q * At::strain + c;
         Lanes const change = E[q].c[c] - before.scalar<Lanes>(i, place);
-        S.c[c] = (constants.fluctuation * rate) * (change - mean.c[c]) + of_law * change;
+        S.c[c] = (constants.fluctuation * rate) * (change - mean.c[c]);
         double const share = (c < D ? 0.5 : 1.0) * (rate > 0 ? 1.0 : 0.0) / At::points;
         loss = loss + share * (S.c[c] + before.scalar<Lanes>(i, At::S + place)) * change;
         after.scalar(i, E[q].c[c], place);
