@@ -127,7 +127,7 @@ TEST(MaterialLibrary, SaysWhatDoesNotFailAndWhatHasNoShock) {
     bool const fails = material.word("damage").has_value() || material.law == "johnson_holmquist";
     EXPECT_NE(fails, material.lacks.find("does not fail") != std::string_view::npos ||
                          material.lacks.find("no failure") != std::string_view::npos);
-    bool const solid = find_law(material.law)->rate_form;
+    bool const solid = find_law(material.law)->hypoelastic;
     EXPECT_EQ(solid && !material.word("eos"), material.lacks.find("no shock") != std::string_view::npos);
   }
 }

@@ -24,7 +24,7 @@ TEST(Laws, AreSelectedByWhatTheyCanDo) {
   using Names = std::vector<std::string_view>;
   EXPECT_EQ(laws_that([](LawInfo const& law) { return law.elastic_rate; }), Names{"linear_elastic"});
   EXPECT_EQ(laws_that([](LawInfo const& law) { return law.brittle; }), Names{"johnson_holmquist"});
-  auto const solids = laws_that([](LawInfo const& law) { return law.rate_form; });
+  auto const solids = laws_that([](LawInfo const& law) { return law.hypoelastic; });
   ASSERT_EQ(solids.size(), static_cast<std::size_t>(Strengths::size));
   EXPECT_EQ(solids.front(), "elastic") << "in the order of the registry";
 }
@@ -45,7 +45,7 @@ TEST(EquationsOfState, GoWithTheirStrengths) {
 
 TEST(Laws, AreEachPickedByTheirNumber) {
   for (LawInfo const& law : laws()) {
-    if (law.rate_form) continue;
+    if (law.hypoelastic) continue;
     MaterialParameters material;
     material.law = law.index;
     material.value[0] = 1000;
@@ -72,9 +72,9 @@ TEST(Solids, AreEachPickedByTheirNumberAndTheWordOfTheirEquationOfState) {
   for (LawInfo const& law : laws()) {
     MaterialParameters material;
     material.law = law.index;
-    EXPECT_EQ(is_hypoelastic(material), law.rate_form);
+    EXPECT_EQ(is_hypoelastic(material), law.hypoelastic);
     for (double& value : material.value) value = 0.25;
-    auto const known = law.rate_form ? static_cast<int>(law.choices[0].allowed.size()) : 0;
+    auto const known = law.hypoelastic ? static_cast<int>(law.choices[0].allowed.size()) : 0;
     for (int eos = 0; eos < 6; ++eos) {
       material.word[0] = eos;
       int calls = 0;
@@ -84,7 +84,7 @@ TEST(Solids, AreEachPickedByTheirNumberAndTheWordOfTheirEquationOfState) {
       });
       EXPECT_EQ(calls, eos < known ? 1 : 0) << law.name << " " << eos;
     }
-    if (law.rate_form) with_law(material, [](auto const&) { ADD_FAILURE() << "a solid is no hyperelastic law"; });
+    if (law.hypoelastic) with_law(material, [](auto const&) { ADD_FAILURE() << "a solid is no hyperelastic law"; });
   }
 }
 

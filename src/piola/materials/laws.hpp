@@ -47,8 +47,9 @@ template <class Law> concept RateForm = requires(Law const& law, SymMat<3> const
 
 template <class... Law>
 struct LawList {
-  static_assert((Hyperelastic<Law> && ...), "a registered law lacks one of the questions of the concept");
-  static_assert(((!Law::volumetric_split || SplitsVolume<Law>)&&...), "a law with a split lacks one of its questions");
+  static_assert((Hyperelastic<Law> && ...), "a registered law lacks a member of the concept Hyperelastic");
+  static_assert(((!Law::volumetric_split || SplitsVolume<Law>)&&...),
+                "a law with a split lacks a member of the concept SplitsVolume");
   static constexpr int size = sizeof...(Law);
 };
 

@@ -23,7 +23,7 @@ constexpr auto table(LawList<Law...>, StrengthList<Strength...>) {
                     LawInfo{.name = Strength::name,
                             .about = Strength::about,
                             .parameters = SolidLaw<Strength>::parameters,
-                            .rate_form = true,
+                            .hypoelastic = true,
                             .brittle = Strength::brittle,
                             .choices = SolidLaw<Strength>::choices,
                             .index = index++}...};

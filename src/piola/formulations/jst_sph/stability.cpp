@@ -160,7 +160,8 @@ class Operator {
   std::vector<double> rest_;
 };
 
-/// A copy of the state for trial steps: forces alone, no supports, no energy balance.
+/// A copy of the state for trial steps: forces alone, no supports, no energy balance. A step of 1 s with displacements
+/// as velocities: a force that depends on the rate of F would count as stiffness.
 BodyState trial_of(JstBody& body, FailureSlot& failure) {
   BodyState trial = body.state();
   trial.failure = &failure;

@@ -6,7 +6,8 @@
 /// Derivation: docs/theory/jst-sph-filtered.md.
 namespace piola::jst_sph::inline PIOLA_BACKEND {
 
-/// v^(n+1/2) = v^n + dt/2 a^n,  x^(n+1) = x^n + dt v^(n+1/2); and the sums that give the rigid part of the motion.
+/// v^(n+1/2) = v^n + dt/2 a^n,  x^(n+1) = x^n + dt v^(n+1/2); and adds to the sums that give the rigid part of
+/// the motion.
 template <int D>
 struct KickAndDrift {
   double dt;
@@ -36,7 +37,7 @@ struct Deform {
   bool small_strain;  ///< the law's volume ratio is 1 + tr e, not det F
   RigidRate without_rigid;
   ReferenceView C, V;
-  View F_in, wave_speed_in;
+  View F_in, wave_speed_in;  ///< the fields that F and wave_speed overwrite: the rate of F is not kept
   WriteView F, wave_speed, volume_ratio, w, rate;
   View filter_scale;
   WriteView filter_source;  ///< neighbour data of the first filter pass: g = d V J

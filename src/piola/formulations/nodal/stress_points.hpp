@@ -130,6 +130,7 @@ struct UpdateStress {
       energy.template without_lateral_stress<D>();
     else
       energy();
+    // Observed stress is that of the law alone.
     if (!Observed && viscosity.on()) viscosity.template add<Law::small_strain>(i, at, energy);
     if constexpr (Observed)
       put_output_fields(i, at, energy);

@@ -4,7 +4,8 @@
 #include "piola/formulations/nodal/cell_points.hpp"
 #include "piola/formulations/nodal/state.hpp"
 
-/// Dissipation of a cell, off by default. Theory: docs/theory/nodal.md, section 5.
+/// Artificial viscosity of a cell, off by default; laws have no viscous stress. Theory: docs/theory/nodal.md,
+/// section 5.
 namespace piola::nodal::inline PIOLA_BACKEND {
 
 /// History of a cell. Per point: the strain E and the viscous stress S at the end of the last step. Per cell: the mean
