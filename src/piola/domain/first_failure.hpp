@@ -5,7 +5,7 @@
 
 namespace piola {
 
-/// Reduction payload of failures: the failure at the lowest particle id wins on all ranks.
+/// Reduction payload of failures: the failure at the lowest particle id wins.
 struct FirstFailure {
   std::uint64_t id = ~std::uint64_t{0};  ///< the largest number where there is none
   Index index = FailureSlot::none;

@@ -83,7 +83,7 @@ struct Assembly {
   bool coupled = false;                                   ///< contact or ties use Formulation::coupled_particles()
   double cfl = std::numeric_limits<double>::quiet_NaN();  ///< nan: the scheme's default
   std::string backend = "auto";                           ///< instruction set: auto, scalar, v3, v4
-  Repartition repartition;                                ///< on ranks
+  Repartition repartition;
 };
 
 /// The materials of a body: the main one, then those of its parts, in the order of ParticleSet::part.

@@ -78,9 +78,9 @@ class Start {
     for (auto const& row : found) all.insert(all.end(), row.begin(), row.end());
     std::vector<std::size_t> order(all.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::vector<std::pair<double, double>> rank;
-    for (std::size_t i = 0; i < all.size(); ++i) rank.push_back(rank_of(all[i].first, i));
-    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return rank[a] < rank[b]; });
+    std::vector<std::pair<double, double>> keys;
+    for (std::size_t i = 0; i < all.size(); ++i) keys.push_back(rank_of(all[i].first, i));
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return keys[a] < keys[b]; });
     order.resize(std::min(wanted, order.size()));
     std::sort(order.begin(), order.end());
     std::vector<Point> X;

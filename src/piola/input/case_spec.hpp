@@ -32,7 +32,7 @@ struct RunSpec {
   bool relax = false;             ///< dynamic relaxation: ends at rest
   double relax_tolerance = 1e-3;  ///< relax: residual force at rest / its maximum in the run
   std::string backend = "auto";   ///< instruction set: auto, scalar, v3, v4
-  Repartition repartition;        ///< on ranks
+  Repartition repartition;
   GuardLimits guards;
   Places places;
 };

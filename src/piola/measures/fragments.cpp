@@ -15,10 +15,10 @@ using Point = std::array<double, 3>;
 
 /// Linear between the sorted values; q in [0, 1].
 double percentile(std::vector<double> const& sorted, double q) {
-  double const rank = q * static_cast<double>(sorted.size() - 1);
-  auto const below = static_cast<std::size_t>(rank);
+  double const position = q * static_cast<double>(sorted.size() - 1);
+  auto const below = static_cast<std::size_t>(position);
   std::size_t const above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (rank - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+  return sorted[below] + (position - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
 double share_below(std::vector<double> const& sorted, double limit) {

@@ -8,8 +8,8 @@
 namespace piola {
 
 /// Kind spacing: distances from the measured particles to their nearest neighbours in any body, over the body's initial
-/// spacing: smallest, percentiles 1, 5 and 50 (linear between the sorted values, rank q (n - 1)), standard deviation
-/// over n, and the fractions below 0.75 and 0.5. All nan if no particle has a neighbour.
+/// spacing: smallest, percentiles 1, 5 and 50 (linear between the sorted values, position q (n - 1)), standard
+/// deviation over n, and the fractions below 0.75 and 0.5. All nan if no particle has a neighbour.
 std::vector<double> spacing_values(Measured const& measured, FieldCache& cache);
 
 /// Kind fragment: the number of clusters, then of the chosen one (of several largest, the one with the first particle)

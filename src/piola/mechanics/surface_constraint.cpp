@@ -60,7 +60,7 @@ SurfaceConstraint::SurfaceConstraint(int dimension, std::vector<Support> const& 
   place_coordinates_.resize(places_.size() * static_cast<std::size_t>(D_));
 }
 
-/// On ranks: the values of all particles within reach of places.
+/// Replicates the values of all particles within reach of places. Collective if the body is distributed.
 void SurfaceConstraint::complete(FieldRef const& field) const {
   if (own_) allgather_selected_slots(field, *own_, slots_, D_);
 }

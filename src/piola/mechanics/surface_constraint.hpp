@@ -36,7 +36,7 @@ class SurfaceConstraint {
 
   bool empty() const { return places_.empty(); }
   /// Sets the local slots of a distributed body. All further members except add_resultants_to() are then collective;
-  /// every rank solves for all places.
+  /// the solution for all places is replicated.
   void share(Range own) { own_ = own; }
   /// Whether the particle contributes to the motion of a place.
   bool reaches(Index slot) const { return particle_in(slot) < particles_.size(); }

@@ -94,7 +94,7 @@ void CellList::lay(CoordinateBounds const& all, Index particles, int dimension, 
   cell_edge_ = cell;
   origin_ = origin;
   fit(all, coordinates);
-  double extent = 0;  // largest coordinate in cell units, independent of which particles this rank sorts
+  double extent = 0;  // largest coordinate in cell units, independent of which particles are local
   for (std::size_t c = 0; c < 3; ++c) {
     count_[c] = static_cast<Index>(span_[c].count) + (c < dimension_ ? 2 : 0);
     base_[c] = far_block * std::round(span_[c].low / far_block);

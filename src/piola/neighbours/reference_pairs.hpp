@@ -70,7 +70,7 @@ class ReferencePairs {
     std::vector<double> scale;  ///< d
     std::vector<double> sum;    ///< sum_{b != a} s_ab V_b
   };
-  /// Communication of make_filter() on several ranks, each of which scales its local particles.
+  /// Communication of make_filter() on a distributed body, where only local particles are scaled.
   struct FilterShare {
     Range own;
     std::function<void(std::vector<double>&)> tell;  ///< updates the ghost values
@@ -94,7 +94,7 @@ class ReferencePairs {
   /// Slots per part, the unit of work of a thread in set-up. Results do not depend on the number of threads.
   static constexpr Index part_size = 4096;
   Index parts() const { return (own_.last - own_.first + part_size - 1) / part_size; }
-  /// f(part, first slot, end) for all parts at once; of slots that hold a particle of this rank only.
+  /// f(part, first slot, end) for all parts at once; of slots that hold a local particle only.
   template <class F>
   void each_part(F const& f) const;
   void find_offsets(Body const& body);

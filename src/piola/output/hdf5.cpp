@@ -80,13 +80,13 @@ std::uint64_t chunk_rows(std::uint64_t rows, int columns, std::size_t bytes) {
 Handle Writer::make_dataset(std::string const& path, hid_t type, std::uint64_t rows, int columns, std::uint64_t chunk,
                             bool early) {
   std::array<hsize_t, 2> const shape{rows, static_cast<hsize_t>(columns)};
-  int const rank = columns > 1 ? 2 : 1;
-  Handle const space(H5Screate_simple(rank, shape.data(), nullptr), H5Sclose, path);
+  int const dimensions = columns > 1 ? 2 : 1;
+  Handle const space(H5Screate_simple(dimensions, shape.data(), nullptr), H5Sclose, path);
   Handle const layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path);
   check(H5Pset_obj_track_times(layout.id(), false), path);  // the same data give the same file
   if (chunk > 0) {
     std::array<hsize_t, 2> const extent{chunk, shape[1]};
-    check(H5Pset_chunk(layout.id(), rank, extent.data()), path);
+    check(H5Pset_chunk(layout.id(), dimensions, extent.data()), path);
     check(H5Pset_shuffle(layout.id()), path);
     check(H5Pset_deflate(layout.id(), 1), path);
   }

@@ -7,7 +7,7 @@
 namespace piola {
 
 SlotOrder order_by_rows(ParticleSet const& set, Body const& body, std::array<std::size_t, 3> const& axis,
-                        std::vector<std::size_t> const& rank) {
+                        std::vector<std::size_t> const& row_order) {
   PIOLA_EXPECTS(body.first >= 0 && body.first <= body.last);
   PIOLA_EXPECTS(body.last <= static_cast<std::int64_t>(set.lattice_index.size()));
   PIOLA_EXPECTS(axis[0] < 3 && axis[1] < 3 && axis[2] < 3);
@@ -17,13 +17,13 @@ SlotOrder order_by_rows(ParticleSet const& set, Body const& body, std::array<std
     auto const& at = lattice_index[static_cast<std::size_t>(id)];
     auto const row = static_cast<std::size_t>(at[axis[2]]) * static_cast<std::size_t>(body.lattice[axis[1]]) +
                      static_cast<std::size_t>(at[axis[1]]);
-    PIOLA_EXPECTS(row < rank.size());
-    return rank[row];
+    PIOLA_EXPECTS(row < row_order.size());
+    return row_order[row];
   };
   // A counting sort: sorting millions of particles by comparison would take seconds.
-  std::vector<std::size_t> begin(rank.size() + 1, 0);
+  std::vector<std::size_t> begin(row_order.size() + 1, 0);
   for (auto id = body.first; id < body.last; ++id) ++begin[row_of(id) + 1];
-  for (std::size_t r = 0; r < rank.size(); ++r) begin[r + 1] += begin[r];
+  for (std::size_t r = 0; r < row_order.size(); ++r) begin[r + 1] += begin[r];
   SlotOrder order;
   order.particles = static_cast<Index>(body.last - body.first);
   auto const slots = (static_cast<std::size_t>(order.particles) + SlotOrder::alignment - 1) / SlotOrder::alignment *
@@ -37,7 +37,7 @@ SlotOrder order_by_rows(ParticleSet const& set, Body const& body, std::array<std
               y = lattice_index[static_cast<std::size_t>(b)][axis[0]];
     return x != y ? x < y : a < b;
   };
-  for (std::size_t r = 0; r < rank.size(); ++r) {
+  for (std::size_t r = 0; r < row_order.size(); ++r) {
     auto const first = order.id.begin() + static_cast<std::ptrdiff_t>(begin[r]),
                last = order.id.begin() + static_cast<std::ptrdiff_t>(begin[r + 1]);
     if (!std::is_sorted(first, last, along)) std::sort(first, last, along);
@@ -57,14 +57,14 @@ SlotOrder pencil_order(ParticleSet const& set, Body const& body) {
   auto const axis = row_axes(body);
   auto const wide = static_cast<std::size_t>(std::max(1, body.lattice[axis[1]])),
              high = static_cast<std::size_t>(std::max(1, body.lattice[axis[2]]));
-  std::vector<std::size_t> rank(wide * high);
+  std::vector<std::size_t> row_order(wide * high);
   std::size_t next = 0;
   for (std::size_t k = 0; k < high; k += rows)
     for (std::size_t j = 0; j < wide; j += rows)
       for (std::size_t z = k; z < std::min(k + rows, high); ++z)
-        for (std::size_t y = j; y < std::min(j + rows, wide); ++y) rank[z * wide + y] = next++;
-  PIOLA_ENSURES(next == rank.size());
-  return order_by_rows(set, body, axis, rank);
+        for (std::size_t y = j; y < std::min(j + rows, wide); ++y) row_order[z * wide + y] = next++;
+  PIOLA_ENSURES(next == row_order.size());
+  return order_by_rows(set, body, axis, row_order);
 }
 
 }  // namespace piola

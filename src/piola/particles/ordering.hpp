@@ -18,10 +18,10 @@ struct SlotOrder {
   Index slots() const { return static_cast<Index>(id.size()); }
 };
 
-/// Particles by rows of the lattice, in each along `axis[0]`, then by id. rank[z * lattice[axis[1]] + y]: the place of
-/// the row at y along axis[1] and z along axis[2] among all rows.
+/// Particles by rows of the lattice, in each along `axis[0]`, then by id. row_order[z * lattice[axis[1]] + y]: the
+/// place of the row at y along axis[1] and z along axis[2] among all rows.
 SlotOrder order_by_rows(ParticleSet const& set, Body const& body, std::array<std::size_t, 3> const& axis,
-                        std::vector<std::size_t> const& rank);
+                        std::vector<std::size_t> const& row_order);
 
 /// The axes of a body's lattice: the longest one first, along which its rows lie, then the remaining ones in order.
 std::array<std::size_t, 3> row_axes(Body const& body);

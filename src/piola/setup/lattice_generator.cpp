@@ -121,8 +121,8 @@ Vec3 position(ShapeSpec const& shape, Lattice const& lattice, Index3 const& inde
   return X;
 }
 
-/// The jitter of a particle depends only on the seed, its lattice position (x fastest) and the axis. It is thus the
-/// same on all ranks.
+/// The jitter of a particle depends only on the seed, its lattice position (x fastest) and the axis. It thus
+/// does not depend on the partition.
 void shake(ShapeSpec const& shape, Lattice const& lattice, Index3 const& index, Vec3& X) {
   if (share_of_cell(shape, lattice, index) < 1) return;  // on a face
   std::uint64_t place = 0;

@@ -22,13 +22,13 @@ class BoundaryConditions {
   /// Before a step from `time` to time + dt [s]: velocities of supports at its end, loads and rigid shapes at half
   /// time.
   void begin_step(double time, double dt);
-  /// After it: the resultants. Those of several ranks are reduced when they are read.
+  /// After it: the resultants, which resultants() reduces.
   void end_step(double time, double dt);
   /// Whether a support holds component c of a local particle in the last step.
   bool holds(Index slot, int c) const;
   /// The next end of a support or a load after `time` [s]; infinity if there is none.
   double next_end_time(double time) const { return piola::next_end_time(time, supports_, loads_); }
-  /// Resultants of the last step over all ranks. Collective.
+  /// Reduces the resultants of the last step. Collective.
   Resultants resultants() const;
   void restore_resultants(std::span<double const> state) {
     unreduced_.reset();

@@ -21,7 +21,7 @@ class Conversion {
   Conversion(Conversion const&) = delete;
   Conversion& operator=(Conversion const&) = delete;
 
-  /// Evaluates convert_when; returns whether a particle of any rank is to convert by it. Collective.
+  /// Evaluates convert_when; returns whether any particle is to convert by it. Collective.
   bool request_by_formula();
   /// Converts flagged particles to Eulerian, or deletes them in bodies with failed = "delete". In bodies without
   /// deletion, reference neighbours within conversion_radius of a particle flagged by a criterion convert too (not

@@ -10,7 +10,7 @@
 namespace piola::adaptle {
 
 /// Marks the particles that have lost their surface contact: Eulerian ones, and those with an Eulerian reference
-/// neighbour. Used if bodies have surface contact first. Replicated on all ranks.
+/// neighbour. Used if bodies have surface contact first. Replicated.
 class LostSurfaces {
  public:
   LostSurfaces() = default;

@@ -8,7 +8,7 @@ namespace piola::adaptle {
 std::vector<FieldInfo> output_field_names();
 /// values[k * components + c] of the k-th local particle.
 void sample_local_slots(Particles const& particles, std::string_view field, std::span<double> values);
-/// Gathers the values of all particles on rank 0, by id. Collective.
+/// As Observables::sample(). Collective.
 void sample(Particles const& particles, std::string_view field, std::span<double> values);
 Diagnostics observe(Particles const& particles, ParticleSet const& set);
 

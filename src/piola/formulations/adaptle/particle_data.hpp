@@ -8,8 +8,8 @@
 namespace piola::adaptle {
 
 /// The arrays of all particles of a run, by slot, and the view of the run for loops (System), to which its other parts
-/// add theirs. Arrays have the length of the whole run; pages are allocated on first write. Every rank writes phi and
-/// active of all particles; other fields only of local particles and ghosts.
+/// add theirs. Arrays have the length of the whole run; pages are allocated on first write. phi and active are
+/// replicated; other fields are written only for local particles and ghosts.
 class ParticleData {
  public:
   /// Sets constants of bodies, contact and kernel types.
@@ -34,11 +34,11 @@ class ParticleData {
   FailureSlot const& failure() const { return failure_; }
   /// Whether some pair of bodies has surface contact first.
   bool has_surface_contact() const;
-  /// Whether some particle, of any rank, is not fully Eulerian.
+  /// Whether any particle is not fully Eulerian (replicated).
   bool has_lagrangian() const;
-  /// Whether some particle, of any rank, is deleted.
+  /// Whether any particle is deleted (replicated).
   bool has_deleted() const;
-  /// Mass of a particle of any rank for contact [kg]; 0 for deleted particles, which do not take part in contact.
+  /// Mass of any particle for contact, replicated [kg]; 0 for deleted particles, which do not take part in contact.
   double contact_mass(std::int64_t id) const;
   std::size_t bytes() const;
 

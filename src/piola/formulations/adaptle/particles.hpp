@@ -38,7 +38,7 @@ class Particles {
   Fields const& fields() const { return data_.fields(); }
   EnergyTotals& energy_totals() { return energy_totals_; }
   EnergyTotals const& energy_totals() const { return energy_totals_; }
-  /// Reduces the actions of the last step over ranks. Collective.
+  /// As BoundaryConditions::resultants(). Collective.
   Resultants actions() const { return boundary_.resultants(); }
   void restore_actions(std::span<double const> state) { boundary_.restore_resultants(state); }
   StepTimings const& seconds() const { return seconds_; }
@@ -60,7 +60,7 @@ class Particles {
   /// Rebuilds derived data after a checkpoint has been loaded.
   void resumed();
 
-  /// Motion of these particles, replicated on all ranks [m], [m/s].
+  /// Motion of these particles, replicated [m], [m/s]. Collective.
   void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                    std::span<std::array<double, 3>> v) const;
   bool is_local(Index slot) const { return data_.system().is_local(slot); }

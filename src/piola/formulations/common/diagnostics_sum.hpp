@@ -28,8 +28,7 @@ struct DiagnosticsSum {
     second_difference_square_.add(&square);
     ++second_differences_;
   }
-  /// Reduces sums and extrema of particles over ranks. Strain energies and the other totals must be complete on each
-  /// rank. Collective.
+  /// Reduces sums and extrema of particles. Strain energies and the other totals must already be reduced. Collective.
   void share();
   /// Returns the totals with the pressure oscillation: rms of (p[i+1] - 2 p[i] + p[i-1]) / 4 over all lattice lines,
   /// divided by the volume-weighted rms of p.

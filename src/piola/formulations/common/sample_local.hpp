@@ -18,7 +18,7 @@ void sample_local_slots(Body const& body, OutputField const& field, std::span<do
   });
 }
 
-/// Gathers one field of one body on rank 0, values[id * components + c]. each(f) calls f(slot, particle) for the local
+/// Gathers one field of one body on root, values[id * components + c]. each(f) calls f(slot, particle) for the local
 /// particles. Collective if the body is distributed.
 template <class Body, class Each>
 void gather_field_on_root(Body const& body, OutputField const& field, std::span<double> values, Each const& each) {

@@ -212,7 +212,7 @@ std::vector<FieldInfo> ContactCoupling::fields() { return field_infos(offered_by
 
 bool ContactCoupling::sample(std::string_view field, std::span<double> values) const {
   if (std::find(offered_by_contact.begin(), offered_by_contact.end(), field) == offered_by_contact.end()) return false;
-  if (values.empty()) return true;  // all ranks have the values, only rank 0 needs them
+  if (values.empty()) return true;  // replicated, needed on root only
   OutputField const& observed = find_output_field(field, offered_by_contact);
   for (auto const& at : system_.at_particles()) {
     auto const place = std::lower_bound(system_.ids().begin(), system_.ids().end(), at.id) - system_.ids().begin();

@@ -69,7 +69,7 @@ void take_supports(Assembly const& whole, FormulationGroup& part) {
 void take_loads(Assembly const& whole, FormulationGroup& part) {
   std::size_t named = 0;  // of the whole so far
   for (Load const& from : whole.loads) {
-    std::size_t const rank = named;
+    std::size_t const number = named;
     named += from.name.empty() ? 0 : 1;
     Load load = from;
     load.particles.clear();
@@ -83,7 +83,7 @@ void take_loads(Assembly const& whole, FormulationGroup& part) {
       if (!from.normals.empty()) load.normals.push_back(from.normals[i]);
     }
     if (load.particles.empty()) continue;
-    if (!load.name.empty()) part.named_loads.push_back(rank);
+    if (!load.name.empty()) part.named_loads.push_back(number);
     part.assembly.loads.push_back(std::move(load));
   }
 }

@@ -37,8 +37,8 @@ class JstBody {
   ParticleSet const& set() const { return *set_; }
   MirrorImages& images() { return images_; }
   std::size_t bytes() const;
-  bool shared() const { return halo_ != nullptr; }  ///< whether the body is distributed over ranks
-  /// Slots of the local particles: all on one rank.
+  bool shared() const { return halo_ != nullptr; }  ///< whether the body is distributed
+  /// Slots of the local particles.
   Range own() const;
   /// Lattice lines for observers if the body is distributed; else nullptr.
   LatticeLineHalo* lattice_line_halo() const { return halo_ ? &halo_->lines : nullptr; }
@@ -54,7 +54,7 @@ class JstBody {
   /// Work of loads and of driven supports since the start [J].
   DeferredGlobalSum& external_work() { return external_work_; }
   DeferredGlobalSum const& external_work() const { return external_work_; }
-  double kinetic_energy() const;  ///< over all ranks [J]; collective
+  double kinetic_energy() const;  ///< [J]; collective
   /// The next time after `time` at which a support or a load ends.
   double next_end_time(double time) const { return boundary_.next_end_time(time); }
   Boundary& boundary() { return boundary_; }
@@ -101,7 +101,7 @@ class JstBody {
   std::vector<double> partial_;
   DeferredGlobalSum external_work_;
   FailureSlot failure_;
-  std::unique_ptr<BodyHalo> halo_;  ///< nullptr on one rank
+  std::unique_ptr<BodyHalo> halo_;  ///< nullptr if not distributed
 };
 
 }  // namespace piola::jst_sph

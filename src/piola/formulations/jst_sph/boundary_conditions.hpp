@@ -34,8 +34,8 @@ class Boundary {
   /// Adds the impulses of supports and loads in the last step. Collective if the body is distributed.
   void add_resultants_to(Resultants& actions) const;
   void reset_impulses() { driven_.reset_impulses(); }
-  /// State for a checkpoint in addition to fields: accelerations by supports at the end of the last step, replicated on
-  /// all ranks. Collective if the body is distributed.
+  /// State for a checkpoint in addition to fields: accelerations by supports at the end of the last step, replicated.
+  /// Collective if the body is distributed.
   std::vector<double> state() const;
   void restore(std::vector<double> const& state);
   /// The next time after `time` at which a support or a load ends; infinity if there is none.
@@ -47,7 +47,7 @@ class Boundary {
   struct SingleOwner {
     std::size_t support;
     double mass;
-    std::size_t number = 0;  ///< of the component, over all ranks
+    std::size_t number = 0;  ///< of the component in the whole body
   };
   void take_supports(Assembly const& assembly, std::vector<Support> const& supports, std::vector<Index> const& slot_of);
   void take_loads(Assembly const& assembly, std::vector<Index> const& slot_of);
@@ -61,7 +61,7 @@ class Boundary {
   std::optional<Cloud> cloud_;
   BodyBoundary driven_;
   std::vector<SupportComponent> plain_;  ///< of local particles
-  std::size_t plain_of_all_ = 0;         ///< number over all ranks
+  std::size_t plain_of_all_ = 0;         ///< number in the whole body
   std::vector<SingleOwner> plain_owner_;
   std::vector<std::array<double, 3>> plain_start_;  ///< at the start of the step [m]
   std::optional<Multipliers> multipliers_;

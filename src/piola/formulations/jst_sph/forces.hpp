@@ -41,7 +41,7 @@ class Forces {
   Forces(BodyState& body, Loader const& loader) : b_(body), loader_(loader) {}
 
   /// `time`: duration of these forces for the energy balance [s]. In the last stage of a step the largest value of the
-  /// field `ended`, the wave speed, and the first failure are reduced over ranks.
+  /// field `ended`, the wave speed, and the first failure are reduced (collective).
   StageBalance operator()(double time, FieldRef const* ended) {
     FusedReductions beside;
     if (ended != nullptr && !b_.trial) {

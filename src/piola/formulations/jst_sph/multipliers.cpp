@@ -184,7 +184,7 @@ void Multipliers::correct(std::vector<Point> const& v, std::vector<double> const
       for (std::size_t c = 0; c < static_cast<std::size_t>(D_); ++c) change_[a][c] += eta[m] * modes_[a][m][c];
 }
 
-/// On ranks all have the motion of all particles within reach, and then solve alike.
+/// Replicates the motion of all particles within reach, so that the solution is replicated too. Collective.
 void Multipliers::complete(BodyState const& body, bool kick, bool stage) const {
   auto const merge = [&](FieldRef const& field) { allgather_selected_slots(field, body.slots, slots_, D_); };
   merge(body.x);

@@ -22,7 +22,7 @@ Diagnostics finish(JstDiagnosticsSum sum);
 /// The fields of JST-SPH for frames and probes.
 std::vector<FieldInfo> output_field_names();
 
-/// Gathers one field of one body on rank 0, values[id * components + c]. Collective if the body is distributed. Throws
+/// Gathers one field of one body on root, values[id * components + c]. Collective if the body is distributed. Throws
 /// std::invalid_argument for an unknown field.
 void sample_on_root(JstBody const& body, int body_number, std::string_view field, std::span<double> values);
 /// As sample_on_root(), for the local particles, slot by slot.

@@ -29,7 +29,7 @@ class StabilityMonitor {
   std::size_t bytes() const { return mode_.size() * sizeof(double); }
 
   /// State that determines the next step limit. Collective on a distributed body; particle data are gathered on or
-  /// scattered from rank 0.
+  /// scattered from root.
   std::vector<double> state() const;
   void restore(std::vector<double> const& state);
 

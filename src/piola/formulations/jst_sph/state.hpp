@@ -118,7 +118,7 @@ struct BodyState : Fields {
   FailureSlot* failure = nullptr;
   StepTotals totals;
   DeferredGlobalSum* external_work = nullptr;  ///< of loads and driven supports [J]
-  double largest_wave_speed = 0;               ///< at the end of the last step, over all ranks [m/s]
+  double largest_wave_speed = 0;               ///< of all particles at the end of the last step [m/s]
   bool trial = false;                          ///< a step that measures the stiffness: supports store no reaction
 };
 

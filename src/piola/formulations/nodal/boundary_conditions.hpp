@@ -50,7 +50,7 @@ class Boundary {
   bool moves_surface(Index slot) const { return surface_.reaches(slot); }
   /// After velocities were changed by contact: supports restore the velocity of the surface that they hold.
   void project_out_reactions(BodyState& state) { surface_.keep_velocity(state.x, state.v, work_); }
-  /// sum m a^2 of the part of accelerations that supports remove [N m/s2]: by surface places over all ranks, and along
+  /// sum m a^2 of the part of accelerations that supports remove [N m/s2]: by all surface places, and along
   /// directions of local particles.
   double square_of_surface(BodyState const& state) const { return surface_.square_of_held(state.a); }
   exec::ReproducibleSum square_of_held(BodyState const& state) const;
@@ -72,7 +72,7 @@ class Boundary {
   std::vector<double> centroid_;  ///< of the cells of loaded particles, relative to the particles [m]
   DeferredGlobalSum work_;
   std::optional<Range> own_;  ///< empty: all slots
-  bool follows_ = false;      ///< whether some load is a follower load, on any rank
+  bool follows_ = false;      ///< whether any load is a follower load (replicated)
 };
 
 }  // namespace piola::nodal

@@ -70,9 +70,9 @@ class IntegrationConstraint {
   }
   /// Surface vectors A_b, D per particle.
   LazyZeroArray<double> surface_vectors() const;
-  /// A_b - sum_a V_a G_ab, D per particle, with the gradients of `corrected` or, if null, without correction. On ranks,
-  /// `corrected` must have the coefficients of ghosts. `size`: if given, receives the largest |G_ab| per local particle
-  /// a.
+  /// A_b - sum_a V_a G_ab, D per particle, with the gradients of `corrected` or, if null, without correction. On a
+  /// distributed body, `corrected` must have the coefficients of ghosts. `size`: if given, receives the largest |G_ab|
+  /// per local particle a.
   LazyZeroArray<double> residual(IntegrationCorrection const* corrected = nullptr,
                                  LazyZeroArray<double>* size = nullptr) const;
   /// Mirror images and halo of a body that has them.

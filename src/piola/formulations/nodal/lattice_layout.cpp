@@ -47,9 +47,10 @@ SlotOrder slot_order(ParticleSet const& set, Body const& body) {
   LatticeShape const shape = shape_of(set, body);
   if (has_parts(set, body)) return part_by_part(set, pencil_order(set, body));
   if (!may_fill(set, body, shape)) return pencil_order(set, body);
-  std::vector<std::size_t> rank(static_cast<std::size_t>(shape.count[1]) * static_cast<std::size_t>(shape.count[2]));
-  std::iota(rank.begin(), rank.end(), std::size_t{0});
-  return order_by_rows(set, body, shape.axis, rank);
+  std::vector<std::size_t> row_order(static_cast<std::size_t>(shape.count[1]) *
+                                     static_cast<std::size_t>(shape.count[2]));
+  std::iota(row_order.begin(), row_order.end(), std::size_t{0});
+  return order_by_rows(set, body, shape.axis, row_order);
 }
 
 std::optional<LatticeShape> lattice_shape(ParticleSet const& set, Body const& body, SlotOrder const& order) {

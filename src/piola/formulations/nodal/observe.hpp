@@ -24,7 +24,7 @@ Diagnostics finish(NodalDiagnosticsSum sum);
 /// The fields of nodal bodies for frames and probes; `solids`: with those of solids in rate form.
 std::vector<FieldInfo> output_field_names(bool solids);
 
-/// Gathers one field of one body on rank 0, values[id * components + c]. Collective if the body is distributed. Throws
+/// Gathers one field of one body on root, values[id * components + c]. Collective if the body is distributed. Throws
 /// std::invalid_argument for an unknown field.
 void sample_on_root(NodalBody const& body, int body_number, std::string_view field, std::span<double> values);
 /// As sample_on_root(), for the local particles only. Collective if the body is distributed.

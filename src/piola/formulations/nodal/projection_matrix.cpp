@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/projection_matrix.hpp"
-#include "piola/domain/communicator.hpp"
+#include "piola/domain/slot_collectives.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/formulations/nodal/halo_fields.hpp"
 #include "piola/math/solve.hpp"
@@ -37,7 +37,7 @@ ProjectionMatrix<D>::ProjectionMatrix(LocalFits<D> const& fits, LazyZeroArray<Sc
   state_.list = {begin_.data(), nullptr, pairs.neighbour.data(), pairs.weight.data()};
 }
 
-/// f(i) for the particles of this rank.
+/// f(i) for the local particles.
 template <int D>
 template <class F>
 void ProjectionMatrix<D>::for_each_local(F const& f) const {
@@ -46,7 +46,7 @@ void ProjectionMatrix<D>::for_each_local(F const& f) const {
 
 template <int D>
 void ProjectionMatrix<D>::distribute(HaloPlan const& halo) {
-  state_.slots = even_range_of_rank(slots_, comm::rank(), comm::size());
+  state_.slots = even_local_range({0, slots_});
   // Neither sent nor read at neighbours.
   if (state_.motion_for_neighbours.data == nullptr) state_.motion_for_neighbours = weights_.ref();
   halo_ = halo;

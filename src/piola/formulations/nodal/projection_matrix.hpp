@@ -18,7 +18,7 @@ class ProjectionMatrix {
  public:
   static constexpr int values = Quadratic<D>::values;
 
-  /// halo: of ghosts, without fields, if the body is distributed: each rank then has the rows of its local particles.
+  /// halo: of ghosts, without fields, if the body is distributed: the matrix then has the rows of local particles.
   ProjectionMatrix(LocalFits<D> const& fits, LazyZeroArray<ScaledCell> const& cells, Backend const& backend,
                    LatticeLayout const* lattice, HaloPlan const* halo);
   ProjectionMatrix(ProjectionMatrix const&) = delete;

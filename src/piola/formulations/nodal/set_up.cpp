@@ -121,14 +121,14 @@ class Tables {
   }
 
  private:
-  /// f(a) for the particles of this rank.
+  /// f(a) for the local particles.
   template <class F>
   void for_each_local(F const& f) const {
     exec_host::parallel_for(static_cast<Index>(last_ - first_),
                             [&](Index k) { f(first_ + static_cast<std::size_t>(k)); });
   }
 
-  /// Fills the reference data (V, X, mu) of the particles of this rank and of their ghosts.
+  /// Fills the reference data (V, X, mu) of local particles and ghosts.
   void fill_seen(IntegrationCorrection const& integration_correction) {
     IndexSet const& rows = fits_.rows();
     exec_host::parallel_for(rows.size(), [&](Index k) {

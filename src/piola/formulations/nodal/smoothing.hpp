@@ -15,7 +15,7 @@ class Smoothing {
   /// members are collective.
   Smoothing(Reference const& reference, int dimension, Range own, HaloPlan const* halo = nullptr);
 
-  /// Returns S^2 f, values per slot; on ranks those of local particles.
+  /// Returns S^2 f, values per slot, of local particles.
   LazyZeroArray<double> operator()(LazyZeroArray<double> f) const;
 
  private:

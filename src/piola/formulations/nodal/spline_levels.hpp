@@ -15,7 +15,7 @@ namespace piola::nodal {
 template <int D>
 class SplineLevels {
  public:
-  /// Positions in spacings. shared: distributed positions; each rank has a part of the splines of the finest level.
+  /// Positions in spacings. shared: distributed positions; the splines of the finest level are distributed too.
   SplineLevels(Points const& X, std::optional<DistributedSlots> const& shared);
 
   /// A field whose sum of squares of third derivatives is `probe_square` everywhere; D columns alike.

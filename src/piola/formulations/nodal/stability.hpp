@@ -41,7 +41,7 @@ class StabilityMonitor {
   double energy_oscillation() const { return energy_oscillation_; }
 
   /// State that determines the next step, except the strains of the last measurement, which are a field. Collective;
-  /// complete on rank 0.
+  /// complete on root.
   std::vector<double> state() const;
   /// Collective.
   void load(StateReader& reader, std::string const& name);
@@ -64,7 +64,7 @@ class StabilityMonitor {
   /// Calls f(place) for the local entries of a Vector.
   template <class F>
   void each_number(F const& f) const;
-  /// sum m u.u and the largest |u_k|, over all ranks.
+  /// sum m u.u and the largest |u_k|, of all particles.
   struct Extent {
     double square, most;
   };

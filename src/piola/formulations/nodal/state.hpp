@@ -73,7 +73,7 @@ struct BodyState : Fields {
   bool marks = false;         ///< forces at x also store F^T F in C_measured
   double* partial = nullptr;  ///< room for the partial results of blocks
   FailureSlot* failure = nullptr;
-  HaloPlan* halo = nullptr;       ///< nullptr on one rank
+  HaloPlan* halo = nullptr;       ///< nullptr if not distributed
   Index const* ghosts = nullptr;  ///< ghost slots
   Index ghost_count = 0;
 };

@@ -34,7 +34,7 @@ struct UniqueLaneGroups {
       group = at->second;
       if (is_new) first.push_back(static_cast<std::size_t>(begin));
     }
-    if (first.empty()) first.push_back(fits.X().size());  // a rank without slots
+    if (first.empty()) first.push_back(fits.X().size());  // no local slots
   }
 
   Index slots() const { return static_cast<Index>(first.size()) * lanes; }
