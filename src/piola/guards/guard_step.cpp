@@ -105,7 +105,7 @@ class StepGuard : public Guard {
  private:
   double fraction() const { return std::isfinite(m_.least) && reference_ > 0 ? m_.least / reference_ : 1; }
 
-  /// Finds the particle whose volume has changed most: waves cross it fastest.
+  /// Finds the particle whose volume has changed most, which often, but not always, limits the step.
   void find_where(GuardInput const& look) {
     if (!look.fields.knows("Jacobian")) return;
     auto const J = look.fields.values("Jacobian");

@@ -11,7 +11,7 @@ struct TimeState {
   double dt = 0;                     ///< s, the last step
   double first_dt = 0;               ///< s, the first stable step
   bool cut_to_end = false;           ///< the last step was shortened to the end of the run
-  bool bounded_by_max_step = false;  ///< the last step was limited by run.max_step, not by the waves
+  bool bounded_by_max_step = false;  ///< the last step was limited by run.max_step, not by the formulation
   bool at_rest = false;              ///< dynamic relaxation converged with the last step
   double wall_seconds = 0;           ///< since the start, over all parts of a resumed run
   double stepping_seconds = 0;       ///< part of wall_seconds inside the formulation
