@@ -216,7 +216,7 @@ void Multipliers::enforce(BodyState& body, MultiplierCall const& call) {
   auto const [x, v] = motion(body, call);
   std::vector<double> wanted;
   for (auto const& row : rows_) {
-    PrescribedDirection const& h = body.held[row.held];
+    PrescribedDirection const& h = body.boundary.held[row.held];
     wanted.push_back(kick ? 0.5 * (h.start_speed + h.speed) : h.speed);
   }
   set_modes(x);
