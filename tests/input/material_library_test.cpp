@@ -3,6 +3,7 @@
 #include "piola/base/text.hpp"
 #include "piola/input/case_files.hpp"
 #include "piola/input/identify.hpp"
+#include "support/key_words.hpp"
 #include "support/sample_case.hpp"
 #include "support/temporary_folder.hpp"
 #include <gtest/gtest.h>
@@ -100,36 +101,48 @@ TEST(MaterialLibraryFile, TakesShearAndBulkModulus) {
 
 TEST(MaterialLibraryFile, ReportsProblemsWithTheirPlaces) {
   struct Slip {
-    std::string_view from, to, begin;
+    std::string_view from, to;
+    test::KeyWords words;
   };
   for (Slip const& slip : std::vector<Slip>{
-           {"lacks", "lack", "my.toml:7:1: \"lack\" is not a key of material (allowed: name, about, "},
-           {"\"355 MPa\"", "\"355 kg\"", "my.toml:13:26: material.yield_stress cannot be read"},
-           {"\"355 MPa\"", "-1", "my.toml:13:26: material.yield_stress is -1 Pa (allowed: above 0"},
-           {"{ value = \"355 MPa\", source = \"report_7\", checked = \"read\" }", "\"355 MPa\"",
-            "my.toml:13:16: material.yield_stress is the text \"355 MPa\" (allowed: a table"},
-           {"value = \"355 MPa\", ", "", "my.toml:13:16: material.yield_stress needs \"value\""},
-           {"\"355 MPa\", source = \"report_7\"", "\"355 MPa\"",
-            "my.toml:13:16: material.yield_stress needs \"source\""},
-           {"\"355 MPa\", source = \"report_7\"", "\"355 MPa\", source = \"report_8\"",
-            "my.toml:13:46: material.yield_stress.source is \"report_8\" (allowed: "},
-           {"\"355 MPa\", source", "\"355 MPa\", sources = 1, source",
-            "my.toml:13:37: \"sources\" is not a key of material.yield_stress"},
-           {"checked = \"quoted\"", "checked = \"yes\"", "my.toml:10:67: material.density.checked is \"yes\""},
-           {"density = {", "d1 = { value = 1, source = \"handbook\", checked = \"read\" }\ndensity = {",
-            "my.toml:10:16: material.d1 does not count here (it needs damage = \"johnson_cook\")"},
-           {"\"our_steel\"", "\"our steel\"", "my.toml:4:8: material.name is \"our steel\" (allowed: letters"},
-           {"\"our_steel\"", "\"steel_4340\"", "my.toml:4:8: material.name is \"steel_4340\" which is taken"},
-           {"\"our_steel\"", "\"elastic\"", "my.toml:4:8: material.name is \"elastic\" which is the name of a law"},
-           {"about = \"our steel\"\n", "", "my.toml:3:"},
-           {"range = \"tension at 1e-3 1/s and 293 K\"", "range = \"\"", "my.toml:6:9: material.range is empty"},
-           {"\"johnson_cook\"", "\"johnson_coke\"", "my.toml:8:7: material.law is \"johnson_coke\""},
-           {"eos = \"mie_grueneisen\"", "eos = \"mie\"", "my.toml:9:7: material.eos is \"mie\""},
-           {"[sources]", "title = 1\n[sources]", "my.toml:1:1: \"title\" is not a key of a library"},
-           {"report_7 = ", "handbook = \"another\"\nreport_7 = ", "my.toml:2:1: the source \"handbook\" is in the"},
-           {"\"our_steel\"", "our_steel", "my.toml:4:"}}) {
+           {"lacks", "lack", {"my.toml:7:1:", "\"lack\"", "is not a key of material", "(allowed: name, about,"}},
+           {"\"355 MPa\"", "\"355 kg\"", {"my.toml:13:26:", "material.yield_stress", "cannot be read"}},
+           {"\"355 MPa\"", "-1", {"my.toml:13:26:", "material.yield_stress", "-1 Pa", "(allowed: above 0"}},
+           {"{ value = \"355 MPa\", source = \"report_7\", checked = \"read\" }",
+            "\"355 MPa\"",
+            {"my.toml:13:16:", "material.yield_stress", "is the text \"355 MPa\"", "(allowed: a table"}},
+           {"value = \"355 MPa\", ", "", {"my.toml:13:16:", "material.yield_stress", "needs \"value\""}},
+           {"\"355 MPa\", source = \"report_7\"",
+            "\"355 MPa\"",
+            {"my.toml:13:16:", "material.yield_stress", "needs \"source\""}},
+           {"\"355 MPa\", source = \"report_7\"",
+            "\"355 MPa\", source = \"report_8\"",
+            {"my.toml:13:46:", "material.yield_stress.source", "\"report_8\"", "(allowed:"}},
+           {"\"355 MPa\", source",
+            "\"355 MPa\", sources = 1, source",
+            {"my.toml:13:37:", "\"sources\"", "is not a key of material.yield_stress"}},
+           {"checked = \"quoted\"", "checked = \"yes\"", {"my.toml:10:67:", "material.density.checked", "\"yes\""}},
+           {"density = {",
+            "d1 = { value = 1, source = \"handbook\", checked = \"read\" }\ndensity = {",
+            {"my.toml:10:16:", "material.d1", "does not count here", "needs damage = \"johnson_cook\")"}},
+           {"\"our_steel\"", "\"our steel\"", {"my.toml:4:8:", "material.name", "\"our steel\"", "(allowed: letters"}},
+           {"\"our_steel\"", "\"steel_4340\"", {"my.toml:4:8:", "material.name", "\"steel_4340\"", "is taken"}},
+           {"\"our_steel\"",
+            "\"elastic\"",
+            {"my.toml:4:8:", "material.name", "\"elastic\"", "which is the name of a law"}},
+           {"about = \"our steel\"\n", "", {"my.toml:3:"}},
+           {"range = \"tension at 1e-3 1/s and 293 K\"",
+            "range = \"\"",
+            {"my.toml:6:9:", "material.range", "is empty"}},
+           {"\"johnson_cook\"", "\"johnson_coke\"", {"my.toml:8:7:", "material.law", "\"johnson_coke\""}},
+           {"eos = \"mie_grueneisen\"", "eos = \"mie\"", {"my.toml:9:7:", "material.eos", "\"mie\""}},
+           {"[sources]", "title = 1\n[sources]", {"my.toml:1:1:", "\"title\"", "is not a key of a library"}},
+           {"report_7 = ",
+            "handbook = \"another\"\nreport_7 = ",
+            {"my.toml:2:1:", "the source \"handbook\"", "is in the"}},
+           {"\"our_steel\"", "our_steel", {"my.toml:4:"}}}) {
     std::string const line = problem_with(slip.from, slip.to);
-    EXPECT_EQ(line.substr(0, slip.begin.size()), slip.begin) << line;
+    EXPECT_TRUE(test::mentions(line, slip.words));
   }
   EXPECT_NE(problem_with("yield_stress = { value = \"355 MPa\", source = \"report_7\", checked = \"read\" }\n", "")
                 .find("add yield_stress = { value = \"... Pa\", source = \"...\", checked = \"read\" }"),
@@ -205,7 +218,7 @@ TEST(CaseLibrary, ProblemsOfItsFilesAreThoseOfTheCase) {
   EXPECT_NE(with.message().find("case.toml:1:23: "), std::string::npos) << with.message();
   EXPECT_NE(with.message().find("other.toml: cannot be read"), std::string::npos) << with.message();
   with.text = test::replaced(with.text, "[\"my.toml\", \"other.toml\"]", "\"my.toml\"");
-  EXPECT_NE(with.message().find("case.toml:1:11: library is the text \"my.toml\" (allowed: a list"), std::string::npos)
+  EXPECT_EQ(test::missing_word(with.message(), {"case.toml:1:11: ", "library", "\"my.toml\"", "(allowed: a list"}), "")
       << with.message();
 }
 

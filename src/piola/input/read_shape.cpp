@@ -154,6 +154,29 @@ void read_fineness(Section const& section, ShapeSpec& shape) {
   }
 }
 
+/// Where the particles of a box or round body are: on its boundary, in the centres of cells, or at random.
+void read_placement(Section const& section, ShapeSpec& shape) {
+  using Placement = ShapeSpec::Placement;
+  if (shape.kind != ShapeKind::box) shape.placement = Placement::cell_centred;
+  if (std::string word; shape.kind != ShapeKind::sphere && section.read("placement", word)) {
+    shape.placement = word == "cell_centred" ? Placement::cell_centred : Placement::on_boundary;
+    shape.random = word == "random";
+  }
+  if (shape.random && shape.kind != ShapeKind::box)
+    section.problems().add(section.place_of("placement"),
+                           "body.shape.placement is \"random\" (allowed in a cylinder: on_boundary, cell_centred) - "
+                           "only a box is filled at random; jitter moves the particles of a cylinder");
+  if (shape.random) section.refuse("jitter", "is used only by particles on a lattice");
+  if (shape.kind != ShapeKind::box) {
+    if (shape.kind == ShapeKind::sphere) refuse_box_key(section, "placement");
+    refuse_box_key(section, "particles");
+  }
+  if (shape.arrangement != ShapeSpec::Arrangement::lattice) {
+    section.refuse("jitter", "is used only by particles on a lattice");
+    section.refuse("seed", "is used only by particles on a lattice");
+  }
+}
+
 }  // namespace
 
 ShapeSpec read_shape(Section const& section, Names const& names) {
@@ -177,25 +200,7 @@ ShapeSpec read_shape(Section const& section, Names const& names) {
     section.refuse_count("body.shape", given, "box, sphere, cylinder or another shape");
     return shape;
   }
-  using Placement = ShapeSpec::Placement;
-  if (shape.kind != ShapeKind::box) shape.placement = Placement::cell_centred;
-  if (std::string word; shape.kind != ShapeKind::sphere && section.read("placement", word)) {
-    shape.placement = word == "cell_centred" ? Placement::cell_centred : Placement::on_boundary;
-    shape.random = word == "random";
-  }
-  if (shape.random && shape.kind != ShapeKind::box)
-    section.problems().add(section.place_of("placement"),
-                           "body.shape.placement is \"random\" (allowed in a cylinder: on_boundary, cell_centred) - "
-                           "only a box is filled at random; jitter moves the particles of a cylinder");
-  if (shape.random) section.refuse("jitter", "is used only by particles on a lattice");
-  if (shape.kind != ShapeKind::box) {
-    if (shape.kind == ShapeKind::sphere) refuse_box_key(section, "placement");
-    refuse_box_key(section, "particles");
-  }
-  if (shape.arrangement != ShapeSpec::Arrangement::lattice) {
-    section.refuse("jitter", "is used only by particles on a lattice");
-    section.refuse("seed", "is used only by particles on a lattice");
-  }
+  read_placement(section, shape);
   section.read("jitter", shape.jitter);
   if (auto const seed = section.whole("seed")) shape.seed = static_cast<std::uint32_t>(*seed);
   read_fineness(section, shape);

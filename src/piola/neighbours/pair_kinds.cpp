@@ -129,9 +129,9 @@ void ReferencePairs::find_offsets(Body const& body) {
         bool const is_inner = r2 <= inner * inner;
         double const s = is_inner ? s_of(r2) : 0;
         lattice_offset_.push_back(offset);
-        offsets_.push_back({s, {s * r[0], s * r[1], s * r[2]}, {r[0], r[1], r[2]}, r2, l_of(r2)});
+        stencils_.offsets.push_back({s, {s * r[0], s * r[1], s * r[2]}, {r[0], r[1], r[2]}, r2, l_of(r2)});
         offset_inner_.push_back(is_inner ? 1 : 0);
-        if (options_.kernel_table) offset_kernel_.push_back(kernel_of(r2));
+        if (options_.kernel_table) stencils_.kernel.push_back(kernel_of(r2));
       }
 }
 
@@ -142,7 +142,7 @@ void ReferencePairs::find_kinds(ParticleSet const& set, SlotOrder const& order) 
   };
   SlotsOfLattice slots(lattice_, lattice_offset_);
   for (Index a = 0; a < particles_; ++a) slots.put(at(a), a);
-  std::size_t const width = offsets_.size();
+  std::size_t const width = stencils_.offsets.size();
   auto& kind = corrections_.kind;
   kind.assign(static_cast<std::size_t>(slots_), 0);
   // Each part numbers its kinds by itself first.

@@ -45,14 +45,14 @@ void ReferencePairs::make_stencils() {
   int const W = options_.lanes;
   std::int32_t const full = (1 << W) - 1;
   auto const add = [&](Shape const& shape, int group, std::int32_t(&run)[2]) {
-    run[0] = static_cast<std::int32_t>(entries_.size());
+    run[0] = static_cast<std::int32_t>(stencils_.entries.size());
     for (auto const& e : shape) {
       if (e[0] != group) continue;
       bool const masked = e[3] != full;
-      entries_.push_back({e[1], e[2], masked ? static_cast<std::int32_t>(weights_.size()) : -1});
-      for (int lane = 0; masked && lane < W; ++lane) weights_.push_back(((e[3] >> lane) & 1) != 0 ? 1.0 : 0.0);
+      stencils_.entries.push_back({e[1], e[2], masked ? static_cast<std::int32_t>(stencils_.weights.size()) : -1});
+      for (int lane = 0; masked && lane < W; ++lane) stencils_.weights.push_back(((e[3] >> lane) & 1) != 0 ? 1.0 : 0.0);
     }
-    run[1] = static_cast<std::int32_t>(entries_.size());
+    run[1] = static_cast<std::int32_t>(stencils_.entries.size());
   };
   auto const& kind = corrections_.kind;
   std::map<std::vector<std::int32_t>, std::int32_t> pattern_of;
@@ -62,18 +62,18 @@ void ReferencePairs::make_stencils() {
     // Most groups of lanes equal the previous one; otherwise the kinds determine the pattern.
     if (kinds.empty() || !std::equal(kinds.begin(), kinds.end(), from)) {
       kinds.assign(from, from + W);
-      auto const next = static_cast<std::int32_t>(patterns_.size());
+      auto const next = static_cast<std::int32_t>(stencils_.patterns.size());
       auto const [at, is_new] = pattern_of.try_emplace(kinds, next);
       if (is_new) {
         Shape const shape = shape_of(first, W, [&](Index slot, auto const& f) { visit(slot, f); });
         StencilPattern p{};
         add(shape, 0, p.inner);
         add(shape, 1, p.outer);
-        patterns_.push_back(p);
+        stencils_.patterns.push_back(p);
       }
-      pattern_of_.push_back(at->second);
+      stencils_.pattern_of.push_back(at->second);
     } else {
-      pattern_of_.push_back(pattern_of_.back());
+      stencils_.pattern_of.push_back(stencils_.pattern_of.back());
     }
   }
 }
@@ -83,34 +83,34 @@ void ReferencePairs::make_list() {
   bool const equal_supports = options_.h_laplacian <= 0 || options_.h_laplacian == options_.h_gradient;
   auto const padded = [W](std::int64_t pairs) { return (pairs + W - 1) / W * W; };
   auto const slots = static_cast<std::size_t>(slots_);
-  list_begin_.assign(slots + 1, 0);
-  list_inner_.assign(slots, 0);
+  lists_.begin.assign(slots + 1, 0);
+  lists_.inner.assign(slots, 0);
   each_part([&](Index, Index first, Index end) {
     for (Index a = first; a < end; ++a) {
       std::int64_t inner = 0, outer = 0;
       visit(a, [&](Pair const& p) { ++(p.inner ? inner : outer); });
-      list_inner_[static_cast<std::size_t>(a)] = static_cast<std::int32_t>(padded(inner));
-      list_begin_[static_cast<std::size_t>(a) + 1] = padded(inner) + padded(outer);
+      lists_.inner[static_cast<std::size_t>(a)] = static_cast<std::int32_t>(padded(inner));
+      lists_.begin[static_cast<std::size_t>(a) + 1] = padded(inner) + padded(outer);
     }
   });
-  for (std::size_t a = 0; a < slots; ++a) list_begin_[a + 1] += list_begin_[a];
-  auto const size = static_cast<std::size_t>(list_begin_.back());
-  list_neighbour_.resize(size);
-  list_s_.assign(size, 0);
-  if (!equal_supports) list_l_.assign(size, 0);
-  if (options_.kernel_table) list_kernel_.assign(size, 0);
+  for (std::size_t a = 0; a < slots; ++a) lists_.begin[a + 1] += lists_.begin[a];
+  auto const size = static_cast<std::size_t>(lists_.begin.back());
+  lists_.neighbour.resize(size);
+  lists_.s.assign(size, 0);
+  if (!equal_supports) lists_.l.assign(size, 0);
+  if (options_.kernel_table) lists_.kernel.assign(size, 0);
   each_part([&](Index, Index first, Index end) {
     for (Index a = first; a < end; ++a) {
       auto const slot = static_cast<std::size_t>(a);
-      auto const begin = static_cast<std::size_t>(list_begin_[slot]);
-      std::fill(list_neighbour_.begin() + list_begin_[slot], list_neighbour_.begin() + list_begin_[slot + 1], a);
-      std::size_t inner = begin, outer = begin + static_cast<std::size_t>(list_inner_[slot]);
+      auto const begin = static_cast<std::size_t>(lists_.begin[slot]);
+      std::fill(lists_.neighbour.begin() + lists_.begin[slot], lists_.neighbour.begin() + lists_.begin[slot + 1], a);
+      std::size_t inner = begin, outer = begin + static_cast<std::size_t>(lists_.inner[slot]);
       visit(a, [&](Pair const& p) {
         std::size_t const k = p.inner ? inner++ : outer++;
-        list_neighbour_[k] = p.b;
-        if (p.inner) list_s_[k] = s_of(p.r2);
-        if (!equal_supports) list_l_[k] = l_of(p.r2);
-        if (options_.kernel_table) list_kernel_[k] = kernel_of(p.r2);
+        lists_.neighbour[k] = p.b;
+        if (p.inner) lists_.s[k] = s_of(p.r2);
+        if (!equal_supports) lists_.l[k] = l_of(p.r2);
+        if (options_.kernel_table) lists_.kernel[k] = kernel_of(p.r2);
       });
     }
   });

@@ -105,18 +105,18 @@ void ReferencePairs::search(SlotOrder const& order) {
 
 StencilTable ReferencePairs::stencil() const {
   PIOLA_EXPECTS(regular_);
-  return {offsets_.data(),    entries_.data(), patterns_.data(),
-          pattern_of_.data(), weights_.data(), offset_kernel_.data()};
+  return {stencils_.offsets.data(),    stencils_.entries.data(), stencils_.patterns.data(),
+          stencils_.pattern_of.data(), stencils_.weights.data(), stencils_.kernel.data()};
 }
 
 ListTable ReferencePairs::list() const {
   PIOLA_EXPECTS(!regular_);
-  return {list_begin_.data(),
-          list_inner_.data(),
-          list_neighbour_.data(),
-          list_s_.data(),
-          list_l_.empty() ? nullptr : list_l_.data(),
-          list_kernel_.empty() ? nullptr : list_kernel_.data()};
+  return {lists_.begin.data(),
+          lists_.inner.data(),
+          lists_.neighbour.data(),
+          lists_.s.data(),
+          lists_.l.empty() ? nullptr : lists_.l.data(),
+          lists_.kernel.empty() ? nullptr : lists_.kernel.data()};
 }
 
 ReferencePairs::Filter ReferencePairs::make_filter(std::vector<double> const& volume, FilterShare const* share) const {
@@ -137,7 +137,8 @@ ReferencePairs::Filter ReferencePairs::make_filter(std::vector<double> const& vo
       double sum = 0;
       visit(own.first + k, [&](Pair const& p) {
         auto const b = static_cast<std::size_t>(source_of(p.b));
-        double const W = !offset_kernel_.empty() ? offset_kernel_[static_cast<std::size_t>(p.offset)] : kernel_of(p.r2);
+        double const W =
+            !stencils_.kernel.empty() ? stencils_.kernel[static_cast<std::size_t>(p.offset)] : kernel_of(p.r2);
         sum += W * volume[b] * d[b];
       });
       neighbours[static_cast<std::size_t>(k)] = sum;
@@ -165,10 +166,10 @@ void ReferencePairs::keep_tables() {
 
 std::size_t ReferencePairs::bytes() const {
   constexpr std::size_t correction = 14 * sizeof(double);  // C, G, alpha, beta, diagonal
-  return offsets_.size() * sizeof(StencilOffset) + entries_.size() * sizeof(StencilEntry) +
-         patterns_.size() * sizeof(StencilPattern) + pattern_of_.size() * 4 + weights_.size() * 8 +
-         list_begin_.size() * 12 + list_neighbour_.size() * 4 +
-         (list_s_.size() + list_l_.size() + list_kernel_.size()) * 8 + corrections_.beta.size() * correction +
+  return stencils_.offsets.size() * sizeof(StencilOffset) + stencils_.entries.size() * sizeof(StencilEntry) +
+         stencils_.patterns.size() * sizeof(StencilPattern) + stencils_.pattern_of.size() * 4 +
+         stencils_.weights.size() * 8 + lists_.begin.size() * 12 + lists_.neighbour.size() * 4 +
+         (lists_.s.size() + lists_.l.size() + lists_.kernel.size()) * 8 + corrections_.beta.size() * correction +
          (corrections_.kind.size() + corrections_.neighbours.size()) * 4 + X_.size() * sizeof(std::array<double, 3>) +
          distance_.size() * 4 + found_begin_.size() * 8 + found_.size() * 4;
 }

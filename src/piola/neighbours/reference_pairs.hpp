@@ -120,6 +120,22 @@ class ReferencePairs {
   void make_stencils();
   void make_list();
 
+  /// Arrays of a StencilTable.
+  struct StencilArrays {
+    std::vector<StencilOffset> offsets;
+    std::vector<StencilEntry> entries;
+    std::vector<StencilPattern> patterns;
+    std::vector<std::int32_t> pattern_of;
+    std::vector<double> weights, kernel;
+  };
+  /// Arrays of a ListTable.
+  struct ListArrays {
+    std::vector<std::int64_t> begin;
+    std::vector<std::int32_t> inner;
+    std::vector<Index> neighbour;
+    std::vector<double> s, l, kernel;
+  };
+
   static constexpr Index absent = std::numeric_limits<Index>::max();
 
   PairOptions options_;
@@ -132,22 +148,14 @@ class ReferencePairs {
   std::vector<std::array<double, 3>> X_;  // irregular bodies: per slot, and of copies
   std::array<int, 3> lattice_;
   std::vector<std::array<int, 3>> lattice_offset_;
-  std::vector<StencilOffset> offsets_;
   std::vector<char> offset_inner_;
   std::size_t kinds_ = 0;                  // regular bodies: of slots, that of empty ones is the last
   std::vector<Index> distance_;            // regular bodies, [kind][offset]: to the neighbour in memory, or absent
   std::vector<std::int64_t> found_begin_;  // irregular bodies, from own_.first on
   std::vector<Index> found_;
   Corrections corrections_;
-  std::vector<StencilEntry> entries_;
-  std::vector<StencilPattern> patterns_;
-  std::vector<std::int32_t> pattern_of_;
-  std::vector<double> weights_;
-  std::vector<std::int64_t> list_begin_;
-  std::vector<std::int32_t> list_inner_;
-  std::vector<Index> list_neighbour_;
-  std::vector<double> list_s_, list_l_, list_kernel_;
-  std::vector<double> offset_kernel_;
+  StencilArrays stencils_;  // regular bodies
+  ListArrays lists_;        // irregular bodies
 };
 
 template <class F>
@@ -160,10 +168,10 @@ void ReferencePairs::each_part(F const& f) const {
 
 template <class F>
 void ReferencePairs::visit_kind(Index a, std::size_t kind, F const& f) const {
-  Index const* const distance = distance_.data() + kind * offsets_.size();
-  for (std::size_t k = 0; k < offsets_.size(); ++k) {
+  Index const* const distance = distance_.data() + kind * stencils_.offsets.size();
+  for (std::size_t k = 0; k < stencils_.offsets.size(); ++k) {
     if (distance[k] == absent) continue;
-    auto const& o = offsets_[k];
+    auto const& o = stencils_.offsets[k];
     f(Pair{a + distance[k], static_cast<std::int32_t>(k), {o.r[0], o.r[1], o.r[2]}, o.r2, offset_inner_[k] != 0});
   }
 }

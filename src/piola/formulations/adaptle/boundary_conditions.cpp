@@ -28,13 +28,13 @@ BoundaryConditions::BoundaryConditions(Assembly const& assembly, System& system)
     held_velocity_ = LazyZeroArray<double>(n);
     holder_ = LazyZeroArray<std::size_t>(n);
     reaction_ = LazyZeroArray<double>(n);
-    system.reaction = reaction_.data();
-    system.held = held_.data();
-    system.held_velocity = held_velocity_.data();
+    system.boundary.reaction = reaction_.data();
+    system.boundary.held = held_.data();
+    system.boundary.held_velocity = held_velocity_.data();
   }
   if (!loads_.empty()) {
     load_ = LazyZeroArray<double>(n);
-    system.load = load_.data();
+    system.boundary.load = load_.data();
   }
 }
 

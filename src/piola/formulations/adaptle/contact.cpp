@@ -43,10 +43,10 @@ double potential(System const& s, Index i, Index j, double r) {
 
 template <int D>
 void add_rigid_contacts(System const& s, Index i, exec::ReproducibleSums<1>& sum) {
-  for (int k = 0; k < s.rigids; ++k) {
+  for (int k = 0; k < s.rigid.count; ++k) {
     double normal[3];
     BodyConstants const& b = s.body[s.body_of[i]];
-    double const depth = 0.5 * b.spacing - distance_to<D>(s.rigid[k], point_at(s.field.x, i, 3).data(), normal);
+    double const depth = 0.5 * b.spacing - distance_to<D>(s.rigid.pose[k], point_at(s.field.x, i, 3).data(), normal);
     double const energy = s.contact.scale * b.bulk_modulus * std::pow(b.spacing, D - 2) * depth * depth;
     if (depth > 0) sum.add(&energy);
   }

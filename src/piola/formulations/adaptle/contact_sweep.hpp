@@ -98,6 +98,66 @@ struct ContactSweep {
   PIOLA_FN void raise(Index i, int which, double value) const { sums.at(i, which) = maximum(sums.at(i, which), value); }
 };
 
+/// A point in a box or cylinder: distances from the centre along axes towards the point, and half the lengths there.
+struct BoxCoordinates {
+  int axes = 0;
+  double q[3]{}, bound[3]{};
+  double direction[3][3]{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+};
+
+/// r: from the centre; along: its component along the axis.
+PIOLA_FN BoxCoordinates coordinates_in_cylinder(RigidPoseAtHalfTime const& shape, double const* r, double along) {
+  BoxCoordinates at;
+  at.axes = 2;
+  double across = 0;
+  for (int c = 0; c < 3; ++c) {
+    at.direction[0][c] = shape.axis[c] * (along < 0 ? -1 : 1);
+    at.direction[1][c] = r[c] - along * shape.axis[c];
+    across += at.direction[1][c] * at.direction[1][c];
+  }
+  across = std::sqrt(across);
+  for (int c = 0; c < 3; ++c) at.direction[1][c] = across > 0 ? at.direction[1][c] / across : 0;
+  at.q[0] = std::fabs(along);
+  at.q[1] = across;
+  at.bound[0] = shape.half[0];
+  at.bound[1] = shape.radius;
+  return at;
+}
+
+template <int D>
+PIOLA_FN BoxCoordinates coordinates_in_box(RigidPoseAtHalfTime const& shape, double const* r) {
+  BoxCoordinates at;
+  at.axes = D;
+  for (int c = 0; c < D; ++c) {
+    if (r[c] < 0) at.direction[c][c] = -1;
+    at.q[c] = std::fabs(r[c]);
+    at.bound[c] = shape.half[c];
+  }
+  return at;
+}
+
+/// Outside: from the nearest point of the box; inside: from the nearest face.
+PIOLA_FN double distance_to_box(BoxCoordinates const& at, double* normal) {
+  double outside = 0, nearest = -1e300;
+  int face = 0;
+  for (int c = 0; c < at.axes; ++c) {
+    double const d = at.q[c] - at.bound[c];
+    if (d > 0) outside += d * d;
+    if (d > nearest) {
+      nearest = d;
+      face = c;
+    }
+  }
+  for (int k = 0; k < 3; ++k) normal[k] = at.direction[face][k];
+  if (!(outside > 0)) return nearest;
+  outside = std::sqrt(outside);
+  for (int k = 0; k < 3; ++k) normal[k] = 0;
+  for (int c = 0; c < at.axes; ++c)
+    for (int k = 0; k < 3; ++k)
+      if (at.q[c] > at.bound[c]) normal[k] += (at.q[c] - at.bound[c]) / outside * at.direction[c][k];
+  return outside;
+}
+
 /// Distance of a point from the surface of a rigid shape, negative inside, and the outward normal there.
 template <int D>
 PIOLA_FN double distance_to(RigidPoseAtHalfTime const& shape, double const* x, double* normal) {
@@ -110,54 +170,13 @@ PIOLA_FN double distance_to(RigidPoseAtHalfTime const& shape, double const* x, d
     for (int c = 0; c < 3; ++c) normal[c] = shape.axis[c];
     return along;
   }
-  double q[3]{}, bound[3]{};
-  int axes = D;
-  double direction[3][3]{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   if (shape.kind == 1) {
     double const length = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
     for (int c = 0; c < 3; ++c) normal[c] = length > 0 ? r[c] / length : (c == 0 ? 1 : 0);
     return length - shape.radius;
   }
-  if (shape.kind == 2) {
-    axes = 2;
-    double across = 0;
-    for (int c = 0; c < 3; ++c) {
-      direction[0][c] = shape.axis[c] * (along < 0 ? -1 : 1);
-      direction[1][c] = r[c] - along * shape.axis[c];
-      across += direction[1][c] * direction[1][c];
-    }
-    across = std::sqrt(across);
-    for (int c = 0; c < 3; ++c) direction[1][c] = across > 0 ? direction[1][c] / across : 0;
-    q[0] = std::fabs(along);
-    q[1] = across;
-    bound[0] = shape.half[0];
-    bound[1] = shape.radius;
-  } else {
-    for (int c = 0; c < D; ++c) {
-      if (r[c] < 0) direction[c][c] = -1;
-      q[c] = std::fabs(r[c]);
-      bound[c] = shape.half[c];
-    }
-  }
-  // Outside: the nearest point of the box; inside: the nearest face.
-  double outside = 0, nearest = -1e300;
-  int face = 0;
-  for (int c = 0; c < axes; ++c) {
-    double const d = q[c] - bound[c];
-    if (d > 0) outside += d * d;
-    if (d > nearest) {
-      nearest = d;
-      face = c;
-    }
-  }
-  for (int k = 0; k < 3; ++k) normal[k] = direction[face][k];
-  if (!(outside > 0)) return nearest;
-  outside = std::sqrt(outside);
-  for (int k = 0; k < 3; ++k) normal[k] = 0;
-  for (int c = 0; c < axes; ++c)
-    for (int k = 0; k < 3; ++k)
-      if (q[c] > bound[c]) normal[k] += (q[c] - bound[c]) / outside * direction[c][k];
-  return outside;
+  return distance_to_box(shape.kind == 2 ? coordinates_in_cylinder(shape, r, along) : coordinates_in_box<D>(shape, r),
+                         normal);
 }
 
 /// A particle closer than dp/2 to a rigid shape is repelled as by its mirror image under the linear law: F = 2 K

@@ -46,7 +46,7 @@ Conversion::Conversion(ParticleData& particles, std::vector<BodyOptions> const& 
       totals_(totals),
       requests_(at(particles.system().particles)) {
   if (particles.has_surface_contact()) lost_ = LostSurfaces(particles.set());
-  particles.system().conversion_request = requests_.data();
+  particles.system().description.request = requests_.data();
   particles.system().contact.lost = lost_.by_slot().data();
 }
 

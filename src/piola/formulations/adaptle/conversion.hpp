@@ -45,7 +45,7 @@ class Conversion {
   std::vector<BodyOptions> const& options_;
   ReferenceLists const& neighbours_;
   EnergyTotals& totals_;
-  LazyZeroArray<std::int8_t> requests_;  ///< per slot, as System::conversion_request
+  LazyZeroArray<std::int8_t> requests_;  ///< per slot, as DescriptionTable::request
   LostSurfaces lost_;
 };
 

@@ -64,8 +64,8 @@ struct StepEnd {
         hourglass(read(s.field.hourglass)),
         contact(read(s.field.contact)),
         viscosity(write(s.field.viscosity)),
-        rigid_power(s.rigids > 0 ? s.rigid_power : nullptr),
-        conversion_request(s.conversion_request),
+        rigid_power(s.rigid.count > 0 ? s.rigid.power : nullptr),
+        conversion_request(s.description.request),
         failure(s.failure) {}
 
   PIOLA_FN void operator()(Range block, BlockScratch const& scratch, double* m) const {

@@ -83,7 +83,7 @@ struct Kick {
       store(rate, acceleration[c]);
       store(v.seen().scalar<Lanes>(i, c) + dt * rate, after[c]);
     }
-    if (s.load != nullptr || s.held != nullptr)
+    if (s.boundary.load != nullptr || s.boundary.held != nullptr)
       for (int l = 0; l < g.count; ++l)
         for (int c = 0; c < D; ++c) guide(i + l, c, acceleration[c][l], after[c][l], m);
     for (int c = 0; c < D; ++c) {
@@ -97,25 +97,25 @@ struct Kick {
   /// Applies loads and supports.
   PIOLA_FN void guide(Index i, int c, double& acceleration, double& after, double* m) const {
     double const before = v.at(i, c), own_mass = mass.at(i);
-    if (s.load != nullptr) {
-      double const push = s.load[3 * i + c];
+    if (s.boundary.load != nullptr) {
+      double const push = s.boundary.load[3 * i + c];
       acceleration += push;
       m[BlockMeasures::load] += own_mass * push * (before + 0.5 * dt * acceleration);
       after = before + dt * acceleration;
     }
-    if (s.held == nullptr) return;
-    s.reaction[3 * i + c] = 0;
-    if (s.held[3 * i + c] == 0) return;
+    if (s.boundary.held == nullptr) return;
+    s.boundary.reaction[3 * i + c] = 0;
+    if (s.boundary.held[3 * i + c] == 0) return;
     if (!(dt > 0)) {  // before the first step: initial velocities
       acceleration = 0;
       after = before;
       return;
     }
-    double const wanted = (s.held_velocity[3 * i + c] - before) / dt;
-    s.reaction[3 * i + c] = own_mass * (wanted - acceleration);
+    double const wanted = (s.boundary.held_velocity[3 * i + c] - before) / dt;
+    s.boundary.reaction[3 * i + c] = own_mass * (wanted - acceleration);
     m[BlockMeasures::held] += own_mass * (wanted - acceleration) * (before + 0.5 * dt * wanted);
     acceleration = wanted;
-    after = s.held_velocity[3 * i + c];
+    after = s.boundary.held_velocity[3 * i + c];
   }
 
   PIOLA_FN void set_gradient(Group g, Lanes const* spatial, BlockScratch& scratch) const {

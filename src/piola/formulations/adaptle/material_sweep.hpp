@@ -237,6 +237,13 @@ struct Deform {
       }
       farthest = maximum(farthest, select(weight > 0.0, square, Lanes(0.0)));
     }
+    correct_for_others(i, sum, farthest);
+  }
+
+  /// Stores the results of leave_out_others(): sums of force, heat and hourglass power, and the squared distance.
+  [[gnu::always_inline]] PIOLA_FN void correct_for_others(Index i, Lanes const (&sum)[D + 2],
+                                                          Lanes const& farthest) const {
+    PairConstants const& b = pairs.b;
     double a[whole(D + 2)];
     add_lanes(sum, a);
     double const V = volume.at(i);

@@ -130,7 +130,7 @@ void ParticleData::allocate(Options const& options, bool rigid_shapes) {
   s.field = fields_.refs();
   s.correction = correction_.data();
   s.position = position_.data();
-  s.eulerian = eulerian_.data();
+  s.description.eulerian = eulerian_.data();
   s.partial = partial_.data();
   s.failure = &failure_;
   s.spatial.stride = s.dimension == 2 ? spatial_stride<2>(s.settings) : spatial_stride<3>(s.settings);
@@ -205,7 +205,7 @@ void ParticleData::set_initial_state(Assembly const& assembly) {
 
 void ParticleData::update_kernel_types() {
   for (Index i = 0; i < system_.particles; ++i) eulerian_[at(i)] = fields_.phi.at(i) > 0 ? 1 : 0;
-  system_.eulerians = static_cast<Index>(std::count(eulerian_.begin(), eulerian_.end(), std::uint8_t{1}));
+  system_.description.eulerians = static_cast<Index>(std::count(eulerian_.begin(), eulerian_.end(), std::uint8_t{1}));
 }
 
 bool ParticleData::has_surface_contact() const {

@@ -14,10 +14,10 @@ RigidShapes::RigidShapes(std::vector<RigidShape> const& shapes, System& system) 
   for (int b = 0; b < system.bodies; ++b) blocks += exec::block_count({system.body[b].first, system.body[b].last});
   action_.resize(at(blocks) * 6 * shapes_.size());
   for (RigidShape const& shape : shapes_) centre_.insert(centre_.end(), shape.centre.begin(), shape.centre.end());
-  system.rigid = pose_.data();
-  system.rigids = static_cast<int>(pose_.size());
-  system.rigid_power = power_.data();
-  system.rigid_action = action_.data();
+  system.rigid.pose = pose_.data();
+  system.rigid.count = static_cast<int>(pose_.size());
+  system.rigid.power = power_.data();
+  system.rigid.action = action_.data();
 }
 
 void RigidShapes::move(double time, double dt) {

@@ -67,7 +67,7 @@ void SpatialHaloExchange::find_own_cells(System const& s, CellList const& grid) 
     }
     std::array<double, 3> place = grid.where(slot);
     for (std::size_t c = 0; c < 3; ++c) place[c] -= corner[at(number)][c];
-    mine_[at(number)].add(s.body_of[slot], s.eulerian[slot] != 0, place);
+    mine_[at(number)].add(s.body_of[slot], s.description.eulerian[slot] != 0, place);
   }
 }
 

@@ -21,10 +21,10 @@ std::array<double, 3> origin_of_cells(System const& s) { return point_at(s.field
 void SpatialLists::sort_all(System const& s) {
   grid_.find_cells(s.position, 3, s.particles, s.dimension, widest_, origin_of_cells(s));
   grid_.sort({s.particles});
-  all_interact_ = s.eulerians == s.particles && !touching(s);
+  all_interact_ = s.description.eulerians == s.particles && !touching(s);
   if (all_interact_) return;
   marks_.start(grid_.shape(), s.dimension);
-  for (Index i = 0; i < s.particles; ++i) marks_.add(grid_.keys()[i], s.body_of[i], s.eulerian[i] != 0);
+  for (Index i = 0; i < s.particles; ++i) marks_.add(grid_.keys()[i], s.body_of[i], s.description.eulerian[i] != 0);
   marks_.finish(touching(s));
 }
 
@@ -58,7 +58,7 @@ void SpatialLists::choose_targets(System const& s) {
 }
 
 void SpatialLists::build(System const& s, RemoteParticles const& others, Backend const& backend, double& busy) {
-  eulerian_ = s.eulerians > 0;
+  eulerian_ = s.description.eulerians > 0;
   spatial_.target.clear();
   contact_.target.clear();
   widest_ = 0;

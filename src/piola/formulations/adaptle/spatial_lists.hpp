@@ -25,7 +25,7 @@ class SpatialLists {
   std::size_t bytes() const;
   Index longest() const { return longest_; }
   /// Whether there are Eulerian particles or contact.
-  static bool needed(System const& system) { return system.eulerians > 0 || touching(system); }
+  static bool needed(System const& system) { return system.description.eulerians > 0 || touching(system); }
   static bool touching(System const& system) { return system.contact.law != ContactLaw::none && system.bodies > 1; }
   /// In the last step, per slot; 0 without a list on this rank.
   LazyZeroArray<int> neighbours_by_slot(System const& system) const;

@@ -272,20 +272,25 @@ struct CorrectSpatial {
     a[0] += target.own[R::volume] * kernel(0);
     Correction& out = correction[target.slot];
     out = {1, {}, {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+    Correction trial = out;
+    if (solve(a, trial) && admissible(target, trial, kernel, b.h)) out = trial;
+  }
+
+  /// The correction with the sums of visit(). Returns false if it is singular.
+  [[gnu::always_inline]] PIOLA_FN static bool solve(double const (&a)[whole(width)], Correction& trial) {
     Mat<D> A;
     for (int i = 0; i < D; ++i)
       for (int j = 0; j < D; ++j) A(i, j) = (a[0] * a[1 + 2 * D + i * D + j] - a[1 + i] * a[1 + D + j]) / (a[0] * a[0]);
     Mat<D> const K = inverse(A);
     double size = 0;
     for (double const k : K.c) size += k * k;
-    if (!(size < 1e20)) return;
-    Correction trial = out;
+    if (!(size < 1e20)) return false;
     trial.S = a[0];
     for (int i = 0; i < D; ++i) {
       trial.G[i] = a[1 + i];
       for (int j = 0; j < D; ++j) trial.K[3 * i + j] = K(i, j);
     }
-    if (admissible(target, trial, kernel, b.h)) out = trial;
+    return true;
   }
 
   PIOLA_FN bool admissible(SpatialTarget const& target, Correction const& k, Kernel<D, Shape> const& kernel,

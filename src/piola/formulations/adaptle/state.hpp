@@ -129,6 +129,29 @@ struct RigidPoseAtHalfTime {
   double centre[3], axis[3], half[3], radius, velocity[3];
 };
 
+/// Rigid shapes, and their actions on the bodies.
+struct RigidTable {
+  RigidPoseAtHalfTime const* pose = nullptr;
+  int count = 0;
+  double* power = nullptr;   ///< per slot: power of moving shapes [W]
+  double* action = nullptr;  ///< [block of a body][shape]: force [N] and moment about the origin [N m]
+};
+
+/// Loads and supports, 3 values per slot. Null: none.
+struct BoundaryTable {
+  double const* load = nullptr;           ///< acceleration of loads at half time
+  std::int8_t const* held = nullptr;      ///< directions with a prescribed velocity
+  double const* held_velocity = nullptr;  ///< at the end of the step
+  double* reaction = nullptr;             ///< force of supports in the step [N]
+};
+
+/// Descriptions of the particles, and requests to change them.
+struct DescriptionTable {
+  std::uint8_t const* eulerian = nullptr;  ///< per slot: phi > 0
+  Index eulerians = 0;                     ///< their number
+  std::int8_t* request = nullptr;          ///< per slot: 0 none, 1 to convert with its neighbours, 2 alone
+};
+
 struct SpatialTable {
   Index sources = 0;                   ///< number of sorted particles; the record after the last is a filler, far away
   Index const* slot = nullptr;         ///< of each sorted particle
@@ -224,25 +247,16 @@ struct System {
   Range const* part = nullptr;   ///< per body: the local slots
   int const* body_of = nullptr;  ///< per slot
   ParticleFields field;
-  Correction* correction = nullptr;        ///< spatial
-  double* position = nullptr;              ///< at half time, 3 per slot: input of the cell grid
-  std::uint8_t const* eulerian = nullptr;  ///< per slot: phi > 0
-  Index eulerians = 0;                     ///< their number
+  Correction* correction = nullptr;  ///< spatial
+  double* position = nullptr;        ///< at half time, 3 per slot: input of the cell grid
+  DescriptionTable description;
   SpatialTable spatial;
   MaterialTable material;
   ContactTable contact;
-  RigidPoseAtHalfTime const* rigid = nullptr;
-  int rigids = 0;
-  double* rigid_power = nullptr;  ///< per slot: power of moving shapes [W]
+  RigidTable rigid;
   LawFactors own;
-  double const* load = nullptr;           ///< acceleration of loads at half time, 3 per slot; null: none
-  std::int8_t const* held = nullptr;      ///< directions with a prescribed velocity, 3 per slot; null: none
-  double const* held_velocity = nullptr;  ///< at the end of the step, 3 per slot
-  double* reaction = nullptr;             ///< per slot: force of supports in the step, 3 values [N]; null: none
-  double* rigid_action =
-      nullptr;  ///< [block of a body][shape]: force [N] and moment about the origin [N m] of rigid shapes
-  std::int8_t* conversion_request = nullptr;  ///< conversion request per slot: 0 none, 1 with its neighbours, 2 alone
-  double* partial = nullptr;                  ///< room for reductions, 16 per block
+  BoundaryTable boundary;
+  double* partial = nullptr;  ///< room for reductions, 16 per block
   FailureSlot* failure = nullptr;
 
   /// Per body: the local slots.

@@ -54,7 +54,7 @@ struct Step {
     exec::for_each_block(Range{0, s.contact.targets},
                          ContactSweep<D>{s.contact, s.spatial.slot, s.body, s.body_of, s.bodies, read(f.x),
                                          read(f.v_half), read(f.volume_half), write(f.force), write(f.contact)});
-    if (s.rigids > 0) push_off_shapes();
+    if (s.rigid.count > 0) push_off_shapes();
   }
 
   StepSums finish(double dt) const {
@@ -83,13 +83,13 @@ struct Step {
  private:
   /// Block by block of each body: blocks are its tiles.
   void push_off_shapes() const {
-    double* action = s.rigid_action;
+    double* action = s.rigid.action;
     for (int b = 0; b < s.bodies; ++b) {
       Range const r = body_range(b);
       exec::for_each_block(
-          r, RigidSweep<D>{s.rigid, s.rigids, s.contact.scale, s.body, s.body_of, read(s.field.x), read(s.field.v_half),
-                           write(s.field.force), write(s.field.contact), s.rigid_power, action});
-      action += std::ptrdiff_t{6} * s.rigids * exec::block_count(r);
+          r, RigidSweep<D>{s.rigid.pose, s.rigid.count, s.contact.scale, s.body, s.body_of, read(s.field.x),
+                           read(s.field.v_half), write(s.field.force), write(s.field.contact), s.rigid.power, action});
+      action += std::ptrdiff_t{6} * s.rigid.count * exec::block_count(r);
     }
   }
 

@@ -115,7 +115,7 @@ void StepHaloExchanges::after_half_state(System const& s) {
   for (ReferenceHalo& halo : to_neighbours_) {
     if (!s.material.used) break;
     std::vector<FieldRef> fields{halo.stress};
-    if (s.eulerians > 0) fields.insert(fields.end(), halo.hourglass.begin(), halo.hourglass.end());
+    if (s.description.eulerians > 0) fields.insert(fields.end(), halo.hourglass.begin(), halo.hourglass.end());
     halo.plan.exchange(fields);
   }
   auto const [corrected, all] = parts_of(s);

@@ -116,8 +116,8 @@ void Boundary::attach(BodyState& state) {
     s.position = value_at(state.x, s.slot, s.component);
     value_at(state.v, s.slot, s.component) = 0;
   }
-  state.supports = plain_.data();
-  state.support_count = static_cast<Index>(plain_.size());
+  state.boundary.supports = plain_.data();
+  state.boundary.support_count = static_cast<Index>(plain_.size());
   begin_step(state, 0, 0);
   driven_.start(state.v);
   if (multipliers_) multipliers_->enforce(state, {MultiplierCall::When::start, 0});
@@ -128,14 +128,14 @@ void Boundary::begin_step(BodyState& state, double time, double dt) {
   bool const changed = driven_.begin_step(state.x, time, dt);
   if (cloud_ && changed) multipliers_.emplace(driven_.held(), *cloud_);
   if (multipliers_) multipliers_->reset_impulses();
-  state.held = driven_.held().data();
-  state.held_count = static_cast<Index>(driven_.held().size());
-  state.multipliers = multipliers_ ? &*multipliers_ : nullptr;
-  state.enforce = [](Multipliers& multipliers, BodyState& body, MultiplierCall const& call) {
+  state.boundary.held = driven_.held().data();
+  state.boundary.held_count = static_cast<Index>(driven_.held().size());
+  state.boundary.multipliers = multipliers_ ? &*multipliers_ : nullptr;
+  state.boundary.enforce = [](Multipliers& multipliers, BodyState& body, MultiplierCall const& call) {
     multipliers.enforce(body, call);
   };
-  state.loaded = driven_.loaded().data();
-  state.loaded_count = static_cast<Index>(driven_.loaded().size());
+  state.boundary.loaded = driven_.loaded().data();
+  state.boundary.loaded_count = static_cast<Index>(driven_.loaded().size());
   plain_start_.clear();
   for (auto const& s : plain_) plain_start_.push_back(point_at(state.x, s.slot, D_));
 }

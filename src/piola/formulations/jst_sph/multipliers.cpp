@@ -193,24 +193,30 @@ void Multipliers::complete(BodyState const& body, bool kick, bool stage) const {
   if (kick) merge(body.rate);
 }
 
+Multipliers::Motion Multipliers::motion(BodyState const& body, MultiplierCall const& call) const {
+  Motion of;
+  for (auto const slot : slots_) {
+    Point& x = of.x.emplace_back(point_at(body.x, slot, D_));
+    Point& v = of.v.emplace_back(point_at(body.v, slot, D_));
+    for (std::size_t k = 0; k < static_cast<std::size_t>(D_); ++k) {
+      int const c = static_cast<int>(k);
+      // Arms of the first stage are x^n = x^(n+1) - dt/2 (v^n + v*), eq. (45).
+      if (call.when == MultiplierCall::When::stage_1) x[k] -= 0.5 * call.dt * (value_at(body.v_n, slot, c) + v[k]);
+      if (call.when == MultiplierCall::When::first_kick) v[k] += 0.5 * call.dt * value_at(body.rate, slot, c);
+    }
+  }
+  return of;
+}
+
 void Multipliers::enforce(BodyState& body, MultiplierCall const& call) {
   if (rows_.empty()) return;
   double const dt = call.dt;
   bool const kick = call.when == MultiplierCall::When::first_kick, stage = call.when == MultiplierCall::When::stage_1;
   if (body.halo != nullptr) complete(body, kick, stage);
-  std::vector<Point> v, x;
-  for (auto const slot : slots_) {
-    v.push_back(point_at(body.v, slot, D_));
-    x.push_back(point_at(body.x, slot, D_));
-    for (std::size_t c = 0; c < static_cast<std::size_t>(D_); ++c) {
-      // Arms of the first stage are x^n = x^(n+1) - dt/2 (v^n + v*), eq. (45).
-      if (stage) x.back()[c] -= 0.5 * dt * (value_at(body.v_n, slot, static_cast<int>(c)) + v.back()[c]);
-      if (kick) v.back()[c] += 0.5 * dt * value_at(body.rate, slot, static_cast<int>(c));
-    }
-  }
+  auto const [x, v] = motion(body, call);
   std::vector<double> wanted;
   for (auto const& row : rows_) {
-    PrescribedDirection const& h = body.held[row.held];
+    PrescribedDirection const& h = body.boundary.held[row.held];
     wanted.push_back(kick ? 0.5 * (h.start_speed + h.speed) : h.speed);
   }
   set_modes(x);

@@ -52,6 +52,11 @@ class Multipliers {
   void set_modes(std::vector<Point> const& x);
   void find_owners(std::span<PrescribedDirection const> held);
   void complete(BodyState const& body, bool kick, bool stage) const;
+  struct Motion {
+    std::vector<Point> x, v;
+  };
+  /// Positions for the moments of impulses, and the velocities to correct.
+  Motion motion(BodyState const& body, MultiplierCall const& call) const;
   void correct(std::vector<Point> const& v, std::vector<double> const& wanted);
 
   int D_;

@@ -165,8 +165,8 @@ class Operator {
 BodyState trial_of(JstBody& body, FailureSlot& failure) {
   BodyState trial = body.state();
   trial.failure = &failure;
-  trial.held_count = trial.loaded_count = 0;
-  trial.multipliers = nullptr;
+  trial.boundary.held_count = trial.boundary.loaded_count = 0;
+  trial.boundary.multipliers = nullptr;
   trial.trial = true;
   trial.constants.project = false;
   return trial;

@@ -93,6 +93,20 @@ struct StepTotals {
   double damping_loss = 0;        ///< J, energy removed by damping
 };
 
+struct BodyState;
+
+/// Supports and loads of a body.
+struct BoundaryState {
+  SupportComponent* supports = nullptr;
+  Index support_count = 0;
+  PrescribedDirection* held = nullptr;
+  Index held_count = 0;
+  Multipliers* multipliers = nullptr;  ///< nullptr: supports hold particles directly
+  void (*enforce)(Multipliers& multipliers, BodyState& body, MultiplierCall const& call) = nullptr;
+  LoadedParticle* loaded = nullptr;
+  Index loaded_count = 0;
+};
+
 struct BodyState : Fields {
   using Fields::Fields;
   Range slots;  ///< slots that loops work on: the local ones
@@ -105,14 +119,7 @@ struct BodyState : Fields {
   /// is the position of the stage.
   FieldRef u, second;
 
-  SupportComponent* supports = nullptr;
-  Index support_count = 0;
-  PrescribedDirection* held = nullptr;
-  Index held_count = 0;
-  Multipliers* multipliers = nullptr;  ///< nullptr: supports hold particles directly
-  void (*enforce)(Multipliers& multipliers, BodyState& body, MultiplierCall const& call) = nullptr;
-  LoadedParticle* loaded = nullptr;
-  Index loaded_count = 0;
+  BoundaryState boundary;
   HaloPlan* halo = nullptr;   ///< if the body is distributed; `slots` are the local ones
   double* partial = nullptr;  ///< room for the partial sums of reductions
   FailureSlot* failure = nullptr;

@@ -101,23 +101,26 @@ class Step {
   }
 
   void add_loads(StageUpdate const& stage) {
-    if (b_.loaded_count == 0) return;
-    exec::for_each_item(b_.loaded_count, TurnLoads<D>{stage.second, b_.loaded, read(b_.F)});
+    if (b_.boundary.loaded_count == 0) return;
+    exec::for_each_item(b_.boundary.loaded_count, TurnLoads<D>{stage.second, b_.boundary.loaded, read(b_.F)});
     // v^n and v*: twice the mean velocity of the step, which is known in stage 2.
     if (stage.second)
-      exec::for_each_item(b_.loaded_count, WorkOfLoads<D>{stage.dt, b_.loaded, read(b_.v_n), read(b_.v)});
-    exec::for_each_item(b_.loaded_count, AddLoads<D>{stage.second, b_.loaded, read(b_.rate), write(b_.rate)});
+      exec::for_each_item(b_.boundary.loaded_count,
+                          WorkOfLoads<D>{stage.dt, b_.boundary.loaded, read(b_.v_n), read(b_.v)});
+    exec::for_each_item(b_.boundary.loaded_count,
+                        AddLoads<D>{stage.second, b_.boundary.loaded, read(b_.rate), write(b_.rate)});
   }
 
   void hold_supports(StageUpdate const& stage) {
-    HoldSupports const pass{stage.second, b_.supports, read(b_.v), write(b_.v), write(b_.x)};
-    exec::for_each_item(b_.support_count, pass);
-    if (b_.held_count == 0) return;
-    HoldDirections<D> const drive{stage, b_.held, read(b_.v), read(b_.v_n), read(b_.x), write(b_.v), write(b_.x)};
-    exec::for_each_item(b_.held_count, drive);
+    HoldSupports const pass{stage.second, b_.boundary.supports, read(b_.v), write(b_.v), write(b_.x)};
+    exec::for_each_item(b_.boundary.support_count, pass);
+    if (b_.boundary.held_count == 0) return;
+    HoldDirections<D> const drive{stage,      b_.boundary.held, read(b_.v), read(b_.v_n),
+                                  read(b_.x), write(b_.v),      write(b_.x)};
+    exec::for_each_item(b_.boundary.held_count, drive);
     using When = MultiplierCall::When;
-    if (b_.multipliers != nullptr)  // step 9
-      b_.enforce(*b_.multipliers, b_, {stage.second ? When::stage_2 : When::stage_1, stage.dt});
+    if (b_.boundary.multipliers != nullptr)  // step 9
+      b_.boundary.enforce(*b_.boundary.multipliers, b_, {stage.second ? When::stage_2 : When::stage_1, stage.dt});
   }
 
   BodyState& b_;

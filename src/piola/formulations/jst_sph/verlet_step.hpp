@@ -41,18 +41,22 @@ class VerletStep {
 
   /// The accelerations of the start, dt = 0, do not belong to a motion.
   void drive(double dt) {
-    if (b_.held_count == 0 || !(dt > 0)) return;
-    exec::for_each_item(b_.held_count, DriveDirections<D>{dt, b_.held, read(b_.v), read(b_.rate), write(b_.rate)});
-    if (b_.multipliers != nullptr) b_.enforce(*b_.multipliers, b_, {MultiplierCall::When::first_kick, dt});
+    if (b_.boundary.held_count == 0 || !(dt > 0)) return;
+    exec::for_each_item(b_.boundary.held_count,
+                        DriveDirections<D>{dt, b_.boundary.held, read(b_.v), read(b_.rate), write(b_.rate)});
+    if (b_.boundary.multipliers != nullptr)
+      b_.boundary.enforce(*b_.boundary.multipliers, b_, {MultiplierCall::When::first_kick, dt});
   }
 
-  void turn_loads(bool at_end) { exec::for_each_item(b_.loaded_count, TurnLoads<D>{at_end, b_.loaded, read(b_.F)}); }
+  void turn_loads(bool at_end) {
+    exec::for_each_item(b_.boundary.loaded_count, TurnLoads<D>{at_end, b_.boundary.loaded, read(b_.F)});
+  }
 
   void add_loads(double dt) {
-    if (b_.loaded_count == 0) return;
+    if (b_.boundary.loaded_count == 0) return;
     turn_loads(true);
-    exec::for_each_item(b_.loaded_count, WorkOfLoads<D>{dt, b_.loaded, read(b_.v), read(b_.v)});
-    exec::for_each_item(b_.loaded_count, AddLoads<D>{true, b_.loaded, read(b_.rate), write(b_.rate)});
+    exec::for_each_item(b_.boundary.loaded_count, WorkOfLoads<D>{dt, b_.boundary.loaded, read(b_.v), read(b_.v)});
+    exec::for_each_item(b_.boundary.loaded_count, AddLoads<D>{true, b_.boundary.loaded, read(b_.rate), write(b_.rate)});
   }
 
   RigidRate kick_and_drift(double dt) {
@@ -101,11 +105,13 @@ class VerletStep {
 
   void kick(double dt, RigidRate const& balance) {
     exec::for_each(b_.slots, Kick<D>{dt, balance, read(b_.rate), read(b_.v), read(b_.x), write(b_.rate), write(b_.v)});
-    exec::for_each_item(b_.support_count, HoldVelocity{dt, b_.trial, b_.supports, read(b_.v), read(b_.rate),
-                                                       write(b_.v), write(b_.rate)});
-    if (b_.held_count == 0 || !(dt > 0)) return;
-    exec::for_each_item(b_.held_count, ArriveAlongDirections<D>{dt, b_.held, read(b_.v), read(b_.rate), write(b_.v)});
-    if (b_.multipliers != nullptr && dt > 0) b_.enforce(*b_.multipliers, b_, {MultiplierCall::When::second_kick, dt});
+    exec::for_each_item(b_.boundary.support_count, HoldVelocity{dt, b_.trial, b_.boundary.supports, read(b_.v),
+                                                                read(b_.rate), write(b_.v), write(b_.rate)});
+    if (b_.boundary.held_count == 0 || !(dt > 0)) return;
+    exec::for_each_item(b_.boundary.held_count,
+                        ArriveAlongDirections<D>{dt, b_.boundary.held, read(b_.v), read(b_.rate), write(b_.v)});
+    if (b_.boundary.multipliers != nullptr && dt > 0)
+      b_.boundary.enforce(*b_.boundary.multipliers, b_, {MultiplierCall::When::second_kick, dt});
   }
 
   BodyState& b_;

@@ -140,8 +140,8 @@ void NodalBody::fill(Assembly const& assembly, Backend const& backend) {
   set_up.fill_reference(records_);
   if (!images_.empty()) {
     mirrored_ = set_up.keep_own_side();
-    state_.mirrored = mirrored_.data();
-    state_.mirrored_count = static_cast<Index>(mirrored_.size());
+    state_.boundary.mirrored = mirrored_.data();
+    state_.boundary.mirrored_count = static_cast<Index>(mirrored_.size());
   }
   set_up.fill_initial();
   set_up.fill_histories();

@@ -99,19 +99,19 @@ void Boundary::begin_step(BodyState& state, double time, double dt) {
   PIOLA_EXPECTS(dt >= 0);
   bool const changed = driven_.begin_step(state.x, time, dt);
   surface_.begin_step(state.x, driven_.held(), changed, time, dt);
-  state.surface = surface_.empty() ? nullptr : &surface_;
-  state.kick_surface = [](SurfaceConstraint& surface, BodyState& body, bool first, double step) {
+  state.boundary.surface = surface_.empty() ? nullptr : &surface_;
+  state.boundary.kick_surface = [](SurfaceConstraint& surface, BodyState& body, bool first, double step) {
     if (first)
       surface.kick_first(body.v, body.a, step);
     else
       surface.kick_last(body.v);
   };
-  state.held = driven_.held().data();
-  state.held_count = static_cast<Index>(driven_.held().size());
-  state.loaded = driven_.loaded().data();
-  state.loaded_count = static_cast<Index>(driven_.loaded().size());
-  state.loaded_centroid = centroid_.data();
-  state.follows = follows_;
+  state.boundary.held = driven_.held().data();
+  state.boundary.held_count = static_cast<Index>(driven_.held().size());
+  state.boundary.loaded = driven_.loaded().data();
+  state.boundary.loaded_count = static_cast<Index>(driven_.loaded().size());
+  state.boundary.loaded_centroid = centroid_.data();
+  state.boundary.follows = follows_;
 }
 
 void Boundary::end_step(BodyState& state) {
@@ -132,8 +132,8 @@ void Boundary::damp(BodyState& state, double factor) const {
 
 exec::ReproducibleSum Boundary::square_of_held(BodyState const& state) const {
   exec::ReproducibleSum sum;
-  for (Index n = 0; n < state.held_count; ++n) {
-    PrescribedDirection const& h = state.held[n];
+  for (Index n = 0; n < state.boundary.held_count; ++n) {
+    PrescribedDirection const& h = state.boundary.held[n];
     if (!is_local(own_, h.slot)) continue;
     double along = 0;
     for (int c = 0; c < D_; ++c) along += value_at(state.a, h.slot, c) * h.direction[c];

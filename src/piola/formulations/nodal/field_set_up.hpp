@@ -30,7 +30,7 @@ class FieldSetUp {
   template <class F>
   void each_local(F const& f) const;
   std::span<MirroredParticle const> mirrored() const {
-    return {s_.mirrored, static_cast<std::size_t>(s_.mirrored_count)};
+    return {s_.boundary.mirrored, static_cast<std::size_t>(s_.boundary.mirrored_count)};
   }
 
   NodalBody& body_;

@@ -152,6 +152,62 @@ double largest(LocalFits<D> const& fits, LazyZeroArray<double> const& u) {
   return most;
 }
 
+/// Preconditioned conjugate gradients for the columns of mu, each with its own steps.
+template <int D>
+struct ConjugateGradients {
+  LocalFits<D> const& fits;
+  ProjectionMatrix<D>& matrix;
+  std::optional<SplineLevels<D>>& levels;
+  SymmetryReduction<D> const* fold;
+
+  void extend(LazyZeroArray<double>& u) const {
+    if (fold != nullptr) fold->extend(u);
+  }
+  Columns<D> inner(LazyZeroArray<double> const& u, LazyZeroArray<double> const& v) const {
+    return fold != nullptr ? fold->products(u, v) : products(fits, u, v);
+  }
+  /// f(particle, number) for the D numbers of each particle.
+  template <class F>
+  void each_number(F const& f) const {
+    exec_host::parallel_for(fits.own().last - fits.own().first, [&](Index k) {
+      auto const a = static_cast<std::size_t>(fits.own().first + k);
+      for (std::size_t J = 0; J < D; ++J) f(a, a * D + J);
+    });
+  }
+
+  /// r: the residual without corrections, then the one left.
+  void run(LazyZeroArray<double>& r, double tolerance, IntegrationCorrection& found) const {
+    LazyZeroArray<double> z(r.size()), p(r.size()), image(r.size());
+    extend(r);
+    found.before = largest(fits, r);
+    auto const goal = inner(r, r);
+    Columns<D> before{};
+    for (; found.iterations < most_iterations; ++found.iterations) {
+      auto const now = inner(r, r);
+      bool done = true;
+      for (std::size_t J = 0; J < D; ++J) done = done && now[J] <= tolerance * tolerance * goal[J];
+      found.converged = done && largest(fits, r) <= most_left;
+      if (found.converged) break;
+      each_number([&](std::size_t a, std::size_t k) { z[k] = r[k] / matrix.diagonal()[a]; });
+      if (levels) levels->add(r, z);
+      if (fold != nullptr) fold->gather(z);
+      auto const rz = inner(r, z);
+      each_number([&](std::size_t, std::size_t k) {
+        p[k] = z[k] + (before[k % D] > 0 ? rz[k % D] / before[k % D] : 0) * p[k];
+      });
+      before = rz;
+      matrix.apply(p, image);
+      extend(image);
+      auto const curvature = inner(p, image);
+      each_number([&](std::size_t, std::size_t k) {
+        double const step = curvature[k % D] > 0 ? rz[k % D] / curvature[k % D] : 0;
+        found.mu[k] += step * p[k];
+        r[k] -= step * image[k];
+      });
+    }
+  }
+};
+
 }  // namespace
 
 template <int D>
@@ -240,54 +296,17 @@ IntegrationCorrection IntegrationConstraint<D>::solve(double tolerance, Backend 
                                                       LatticeLayout const* lattice, SolveContext const& whole) const {
   auto const [fold, halo] = whole;
   ProjectionMatrix<D> matrix(fits_, cells_, backend, lattice, halo);
-  LazyZeroArray<double> r = residual(), z(r.size()), p(r.size()), image(r.size());
+  LazyZeroArray<double> r = residual();
   IntegrationCorrection integration_correction{.mu = LazyZeroArray<double>(r.size()), .coefficients = {}};
   std::optional<SplineLevels<D>> levels;
   if (cells_.size() >= worth_levels) set_levels(fits_, matrix, cells_, levels.emplace(fits_.X(), fits_.shared()));
-  // f(particle, number) for the D numbers of each particle.
-  auto const each_particle = [&](auto const& f) {
-    exec_host::parallel_for(fits_.own().last - fits_.own().first, [&](Index k) {
-      auto const a = static_cast<std::size_t>(fits_.own().first + k);
-      for (std::size_t J = 0; J < D; ++J) f(a, a * D + J);
-    });
-  };
-  auto const inner = [&](LazyZeroArray<double> const& u, LazyZeroArray<double> const& v) {
-    return whole.fold != nullptr ? whole.fold->products(u, v) : products(fits_, u, v);
-  };
-  auto const extend = [&](LazyZeroArray<double>& u) {
-    if (whole.fold != nullptr) whole.fold->extend(u);
-  };
-  extend(r);
-  integration_correction.before = largest(fits_, r);
-  auto const goal = inner(r, r);
-  Columns<D> before{};
-  for (; integration_correction.iterations < most_iterations; ++integration_correction.iterations) {
-    auto const now = inner(r, r);
-    bool done = true;
-    for (std::size_t J = 0; J < D; ++J) done = done && now[J] <= tolerance * tolerance * goal[J];
-    integration_correction.converged = done && largest(fits_, r) <= most_left;
-    if (integration_correction.converged) break;
-    each_particle([&](std::size_t a, std::size_t k) { z[k] = r[k] / matrix.diagonal()[a]; });
-    if (levels) levels->add(r, z);
-    if (fold != nullptr) fold->gather(z);
-    auto const rz = inner(r, z);
-    each_particle(
-        [&](std::size_t, std::size_t k) { p[k] = z[k] + (before[k % D] > 0 ? rz[k % D] / before[k % D] : 0) * p[k]; });
-    before = rz;
-    matrix.apply(p, image);
-    extend(image);
-    auto const curvature = inner(p, image);
-    each_particle([&](std::size_t, std::size_t k) {
-      double const step = curvature[k % D] > 0 ? rz[k % D] / curvature[k % D] : 0;
-      integration_correction.mu[k] += step * p[k];
-      r[k] -= step * image[k];
-    });
-  }
+  ConjugateGradients<D> iteration{fits_, matrix, levels, fold};
+  iteration.run(r, tolerance, integration_correction);
   if (fold == nullptr || !fold->endless()) remove_quadratic<D>(fits_, integration_correction.mu);
-  extend(integration_correction.mu);
+  iteration.extend(integration_correction.mu);
   if (halo != nullptr)
     exchange_once(*halo, {.data = integration_correction.mu.data(), .component_stride = 1, .particle_stride = D}, D);
-  matrix.apply(integration_correction.mu, image);
+  matrix.apply(integration_correction.mu, r);  // the matrix keeps the coefficients of its last product
   integration_correction.coefficients = matrix.take_coefficients();
   refine<D>(fits_, matrix, integration_correction);
   measure(integration_correction, whole);

@@ -270,6 +270,10 @@ struct LatticeSums {
         }
       });
     });
+    store_stress_rows(even, odd, q, at);
+  }
+  [[gnu::always_inline]] PIOLA_FN static void store_stress_rows(Lanes const (&even)[3], Lanes const (&odd)[3],
+                                                                Buffer* q, Index at) {
     store(even[0], q[0] + at);
     store(Lanes(even[1] - odd[1]), q[1] + at);
     store(Lanes(even[1] + odd[1]), q[2] + at);

@@ -57,6 +57,70 @@ struct EnergyOscillationSums {
   }
 };
 
+/// Vectors of D values per local particle of a body, in the order of slots, with the product u.M.v over all ranks.
+class ParticleVectors {
+ public:
+  using Vector = std::vector<double>;
+  explicit ParticleVectors(NodalBody& body) : body_(body), dimension_(body.state().dimension) {}
+
+  /// Index in a vector of component c of the particle in slot i.
+  std::size_t place(Index i, int c) const { return mode_place(body_, i, c); }
+  /// Calls f(slot) for the local particles.
+  template <class F>
+  void each_particle(F const& f) const {
+    Range const own = body_.own();
+    exec_host::parallel_for(own.last - own.first, [&](Index k) { f(own.first + k); });
+  }
+  /// Calls f(place) for the entries.
+  template <class F>
+  void each_number(F const& f) const {
+    each_particle([&](Index i) {
+      for (int c = 0; c < dimension_; ++c) f(place(i, c));
+    });
+  }
+  Vector values_of(FieldRef const& field) const {
+    Vector u(size_of_mode(body_));
+    each_particle([&](Index i) {
+      for (int c = 0; c < dimension_; ++c) u[place(i, c)] = value_at(field, i, c);
+    });
+    return u;
+  }
+  /// Moves the particles to x + scale u.
+  void put_moved(Vector const& x, double scale, Vector const& u) const {
+    each_particle([&](Index i) {
+      for (int c = 0; c < dimension_; ++c) value_at(body_.state().x, i, c) = x[place(i, c)] + scale * u[place(i, c)];
+    });
+  }
+  /// sum m u.v. Collective.
+  double product(Vector const& u, Vector const& v) const {
+    auto sum = own_product(u, v);
+    if (body_.shared()) comm::allreduce_sum(sum);
+    return sum.value();
+  }
+  /// sum m u.u and the largest |u_k|. Collective.
+  struct Extent {
+    double square, most;
+  };
+  Extent extent(Vector const& u) const {
+    ExtentReduction said{own_product(u, u), largest_of(u)};
+    if (body_.shared()) comm::allreduce_sum(said);
+    return {said.square.value(), said.most};
+  }
+
+ private:
+  /// sum m u.v, of the particles of this rank.
+  exec::ReproducibleSums<1> own_product(Vector const& u, Vector const& v) const {
+    return sums_over_slots<1>(false, body_.own(), [&](Index i, double* x) {
+      double sum = 0;
+      for (int c = 0; c < dimension_; ++c) sum += u[place(i, c)] * v[place(i, c)];
+      *x = body_.mass(i) * sum;
+    });
+  }
+
+  NodalBody& body_;
+  int dimension_;
+};
+
 /// Largest eigenvalue of a symmetric tridiagonal matrix, by bisection on the signs of the pivots of T - theta; and the
 /// last component of its normalised eigenvector, with the vector.
 double largest_eigenvalue(std::vector<double> const& diagonal, std::vector<double> const& beside,
@@ -104,92 +168,35 @@ StabilityMonitor::StabilityMonitor(NodalBody& body, Backend const& backend)
   start_ = frequency_;
 }
 
-std::size_t StabilityMonitor::place(Index i, int c) const { return mode_place(body_, i, c); }
-
-template <class F>
-void StabilityMonitor::each_particle(F const& f) const {
-  Range const own = body_.own();
-  exec_host::parallel_for(own.last - own.first, [&](Index k) { f(own.first + k); });
-}
-
-template <class F>
-void StabilityMonitor::each_number(F const& f) const {
-  each_particle([&](Index i) {
-    for (int c = 0; c < body_.state().dimension; ++c) f(place(i, c));
-  });
-}
-
-StabilityMonitor::Vector StabilityMonitor::positions() const {
-  int const D = body_.state().dimension;
-  Vector x(mode_.size());
-  each_particle([&](Index i) {
-    for (int c = 0; c < D; ++c) x[place(i, c)] = value_at(body_.state().x, i, c);
-  });
-  return x;
-}
-
-void StabilityMonitor::put_moved(Vector const& x, double scale, Vector const& mode) {
-  int const D = body_.state().dimension;
-  each_particle([&](Index i) {
-    for (int c = 0; c < D; ++c) value_at(body_.state().x, i, c) = x[place(i, c)] + scale * mode[place(i, c)];
-  });
-}
-
 /// Accelerations by internal forces at the present positions.
 StabilityMonitor::Vector StabilityMonitor::accelerations() {
-  int const D = body_.state().dimension;
   FailureSlot failure;
   BodyState trial = body_.state();
   trial.failure = &failure;
   backend_.accelerate(trial);
-  Vector a(mode_.size());
-  each_particle([&](Index i) {
-    for (int c = 0; c < D; ++c) a[place(i, c)] = value_at(trial.a, i, c);
-  });
-  return a;
-}
-
-/// sum m u.v, of the particles of this rank.
-exec::ReproducibleSums<1> StabilityMonitor::own_product(Vector const& u, Vector const& v) const {
-  int const D = body_.state().dimension;
-  return sums_over_slots<1>(false, body_.own(), [&](Index i, double* x) {
-    double sum = 0;
-    for (int c = 0; c < D; ++c) sum += u[place(i, c)] * v[place(i, c)];
-    *x = body_.mass(i) * sum;
-  });
-}
-
-double StabilityMonitor::product(Vector const& u, Vector const& v) const {
-  auto sum = own_product(u, v);
-  if (body_.shared()) comm::allreduce_sum(sum);
-  return sum.value();
-}
-
-StabilityMonitor::Extent StabilityMonitor::extent(Vector const& u) const {
-  ExtentReduction said{own_product(u, u), largest_of(u)};
-  if (body_.shared()) comm::allreduce_sum(said);
-  return {said.square.value(), said.most};
+  return ParticleVectors(body_).values_of(trial.a);
 }
 
 /// One cycle of Lanczos' method for -da/dx, which is symmetric in the product above, from the mode, which becomes the
 /// best approximation of an eigenvector that it finds.
 StabilityMonitor::Estimate StabilityMonitor::iterate(Vector const& x, Vector const& rest, double size) {
+  ParticleVectors const vectors(body_);
   std::vector<Vector> basis;
   std::vector<double> diagonal, beside, y;
   Vector next = mode_;
   for (int k = 0; k < cycle; ++k) {
-    auto const [square, most] = extent(next);
+    auto const [square, most] = vectors.extent(next);
     double const length = std::sqrt(square);
     if (!(length > 0) || !std::isfinite(length)) break;
     if (k > 0) beside.push_back(length);
-    each_number([&](std::size_t i) { next[i] /= length; });
+    vectors.each_number([&](std::size_t i) { next[i] /= length; });
     basis.push_back(next);
     double const scale = size / (most / length);
-    put_moved(x, scale, next);
+    vectors.put_moved(x, scale, next);
     next = accelerations();
-    each_number([&](std::size_t i) { next[i] = (rest[i] - next[i]) / scale; });
-    diagonal.push_back(product(next, basis.back()));
-    each_number([&](std::size_t i) {
+    vectors.each_number([&](std::size_t i) { next[i] = (rest[i] - next[i]) / scale; });
+    diagonal.push_back(vectors.product(next, basis.back()));
+    vectors.each_number([&](std::size_t i) {
       next[i] -=
           diagonal.back() * basis.back()[i] + (k > 0 ? beside.back() * basis[static_cast<std::size_t>(k) - 1][i] : 0);
     });
@@ -198,9 +205,9 @@ StabilityMonitor::Estimate StabilityMonitor::iterate(Vector const& x, Vector con
   beside.resize(basis.size() - 1);
   Estimate found;
   found.square = largest_eigenvalue(diagonal, beside, y);
-  found.error = std::sqrt(product(next, next)) * std::abs(y.back());
+  found.error = std::sqrt(vectors.product(next, next)) * std::abs(y.back());
   std::fill(mode_.begin(), mode_.end(), 0);
-  each_number([&](std::size_t i) {
+  vectors.each_number([&](std::size_t i) {
     for (std::size_t k = 0; k < basis.size(); ++k) mode_[i] += y[k] * basis[k][i];
   });
   return found;
@@ -239,17 +246,14 @@ void StabilityMonitor::look_at_unrest(double dt) {
 
 /// From the velocities alone: accelerations have yet to come. `size` [m]: of the trial displacement.
 double StabilityMonitor::unrest_at_start(Vector const& x, Vector const& rest, double size) {
-  auto const& s = body_.state();
-  Vector v(mode_.size(), 0);
-  each_particle([&](Index i) {
-    for (int c = 0; c < s.dimension; ++c) v[place(i, c)] = value_at(s.v, i, c);
-  });
+  ParticleVectors const vectors(body_);
+  Vector const v = vectors.values_of(body_.state().v);
   double const most = global_max_norm(body_, v);
   if (!(most > 0)) return 0;
-  put_moved(x, size / most, v);
+  vectors.put_moved(x, size / most, v);
   Vector change = accelerations();
-  each_number([&](std::size_t i) { change[i] = rest[i] - change[i]; });
-  return 0.125 * most / size * std::abs(product(v, change));
+  vectors.each_number([&](std::size_t i) { change[i] = rest[i] - change[i]; });
+  return 0.125 * most / size * std::abs(vectors.product(v, change));
 }
 
 void StabilityMonitor::measure(int cycles, bool at_start) {
@@ -257,12 +261,12 @@ void StabilityMonitor::measure(int cycles, bool at_start) {
   backend_.update_output_fields(body_.state());
   energy_ = std::max(energy_, body_.kinetic_energy() + body_.strain_energy());
   refresh_mode(body_, mode_);
-  for (Index k = 0; k < body_.state().mirrored_count; ++k) {  // nothing moves across its mirror plane
-    MirroredParticle const& p = body_.state().mirrored[k];
+  for (Index k = 0; k < body_.state().boundary.mirrored_count; ++k) {  // nothing moves across its mirror plane
+    MirroredParticle const& p = body_.state().boundary.mirrored[k];
     for (int c = 0; c < body_.state().dimension; ++c)
-      if ((p.axes >> c & 1) != 0) mode_[place(p.slot, c)] = 0;
+      if ((p.axes >> c & 1) != 0) mode_[mode_place(body_, p.slot, c)] = 0;
   }
-  auto const x = positions();
+  auto const x = ParticleVectors(body_).values_of(body_.state().x);
   body_.state().marks = true;
   auto const rest = accelerations();
   body_.state().marks = false;

@@ -56,19 +56,6 @@ class StabilityMonitor {
   struct Estimate {
     double square = 0, error = 0;
   };
-  /// Index in a Vector of component c of the particle in slot i.
-  std::size_t place(Index i, int c) const;
-  /// Calls f(slot) for the local particles.
-  template <class F>
-  void each_particle(F const& f) const;
-  /// Calls f(place) for the local entries of a Vector.
-  template <class F>
-  void each_number(F const& f) const;
-  /// sum m u.u and the largest |u_k|, of all particles.
-  struct Extent {
-    double square, most;
-  };
-  Extent extent(Vector const& u) const;
   /// Step [s] at a fraction of the stability limit.
   double step_at(double fraction) const;
   void measure(int cycles, bool at_start);
@@ -77,10 +64,6 @@ class StabilityMonitor {
   double unrest_at_start(Vector const& x, Vector const& rest, double size);
   Estimate iterate(Vector const& x, Vector const& rest, double size);
   Vector accelerations();
-  Vector positions() const;
-  void put_moved(Vector const& x, double scale, Vector const& mode);
-  double product(Vector const& u, Vector const& v) const;
-  exec::ReproducibleSums<1> own_product(Vector const& u, Vector const& v) const;
 
   NodalBody& body_;
   Backend const& backend_;

@@ -44,6 +44,22 @@ struct MirroredParticle {
   int axes;
 };
 
+struct BodyState;
+
+/// Supports, loads and mirror planes of a body.
+struct BoundaryState {
+  PrescribedDirection* held = nullptr;
+  Index held_count = 0;
+  LoadedParticle* loaded = nullptr;
+  Index loaded_count = 0;
+  double const* loaded_centroid = nullptr;  ///< [loaded][D]: of the cell, relative to the particle [m]
+  MirroredParticle const* mirrored = nullptr;
+  Index mirrored_count = 0;
+  SurfaceConstraint* surface = nullptr;  ///< surface places that supports hold; nullptr: none
+  void (*kick_surface)(SurfaceConstraint& surface, BodyState& body, bool first, double dt) = nullptr;
+  bool follows = false;  ///< whether some load is a follower load
+};
+
 struct BodyState : Fields {
   using Fields::Fields;
   Range slots;          ///< slots that loops work on: the local ones
@@ -60,16 +76,7 @@ struct BodyState : Fields {
   /// of X, x and mu, or `products` on a lattice; for the sums of forces, `stress`.
   FieldRef motion_for_neighbours, stress_for_neighbours;
 
-  PrescribedDirection* held = nullptr;
-  Index held_count = 0;
-  LoadedParticle* loaded = nullptr;
-  Index loaded_count = 0;
-  double const* loaded_centroid = nullptr;  ///< [loaded][D]: of the cell, relative to the particle [m]
-  MirroredParticle const* mirrored = nullptr;
-  Index mirrored_count = 0;
-  SurfaceConstraint* surface = nullptr;  ///< surface places that supports hold; nullptr: none
-  void (*kick_surface)(SurfaceConstraint& surface, BodyState& body, bool first, double dt) = nullptr;
-  bool follows = false;       ///< whether some load is a follower load
+  BoundaryState boundary;
   bool marks = false;         ///< forces at x also store F^T F in C_measured
   double* partial = nullptr;  ///< room for the partial results of blocks
   FailureSlot* failure = nullptr;

@@ -17,14 +17,14 @@ class Step {
 
   /// From t^n to t^(n+1) = t^n + dt. With dt = 0 only the accelerations are computed.
   void operator()(double dt) {
-    if (b_.follows) turn_loads(false);
+    if (b_.boundary.follows) turn_loads(false);
     if (dt > 0) drive(dt);  // v^(n+1/2) in prescribed directions
     exec::for_each(b_.slots, KickAndDrift<D>{dt, read(b_.a), read(b_.v), read(b_.x), write(b_.v), write(b_.x)});
     accelerate(dt);
-    if (b_.follows) turn_loads(true);
-    exec::for_each_item(b_.loaded_count, WorkOfLoads<D>{dt, b_.loaded, read(b_.v), read(b_.v)});
-    exec::for_each_item(b_.loaded_count, AddLoads<D>{true, b_.loaded, read(b_.a), write(b_.a)});
-    exec::for_each_item(b_.mirrored_count, StayOnPlanes<D>{b_.mirrored, write(b_.a)});
+    if (b_.boundary.follows) turn_loads(true);
+    exec::for_each_item(b_.boundary.loaded_count, WorkOfLoads<D>{dt, b_.boundary.loaded, read(b_.v), read(b_.v)});
+    exec::for_each_item(b_.boundary.loaded_count, AddLoads<D>{true, b_.boundary.loaded, read(b_.a), write(b_.a)});
+    exec::for_each_item(b_.boundary.mirrored_count, StayOnPlanes<D>{b_.boundary.mirrored, write(b_.a)});
     exec::for_each(b_.slots, Kick<D>{dt, read(b_.a), read(b_.v), write(b_.v)});
     if (dt > 0) arrive(dt);
   }
@@ -33,9 +33,9 @@ class Step {
   /// the last step, is given.
   void accelerate(double dt = -1) {
     sweep<false>(dt);
-    exec::for_each_item(b_.mirrored_count, KeepEven<D>{b_.mirrored, write(b_.stress_for_neighbours)});
+    exec::for_each_item(b_.boundary.mirrored_count, KeepEven<D>{b_.boundary.mirrored, write(b_.stress_for_neighbours)});
     sum_forces();
-    exec::for_each_item(b_.mirrored_count, StayOnPlanes<D>{b_.mirrored, write(b_.a)});
+    exec::for_each_item(b_.boundary.mirrored_count, StayOnPlanes<D>{b_.boundary.mirrored, write(b_.a)});
   }
 
   /// a = M x with the matrix of the divergence theorem.
@@ -117,17 +117,20 @@ class Step {
 
   void turn_loads(bool at_end) {
     halo_.refresh(b_.x, b_.motion_for_neighbours);
-    exec::for_each_item(b_.loaded_count, TurnLoads<D>{at_end, b_.loaded, b_.loaded_centroid, of_motion(),
-                                                      read_reference(b_.g), read_reference(b_.k), read(b_.offset)});
+    exec::for_each_item(b_.boundary.loaded_count,
+                        TurnLoads<D>{at_end, b_.boundary.loaded, b_.boundary.loaded_centroid, of_motion(),
+                                     read_reference(b_.g), read_reference(b_.k), read(b_.offset)});
   }
 
   void drive(double dt) {
-    exec::for_each_item(b_.held_count, DriveDirections<D>{dt, b_.held, read(b_.v), read(b_.a), write(b_.a)});
-    if (b_.surface != nullptr) b_.kick_surface(*b_.surface, b_, true, dt);
+    exec::for_each_item(b_.boundary.held_count,
+                        DriveDirections<D>{dt, b_.boundary.held, read(b_.v), read(b_.a), write(b_.a)});
+    if (b_.boundary.surface != nullptr) b_.boundary.kick_surface(*b_.boundary.surface, b_, true, dt);
   }
   void arrive(double dt) {
-    exec::for_each_item(b_.held_count, ArriveAlongDirections<D>{dt, b_.held, read(b_.v), read(b_.a), write(b_.v)});
-    if (b_.surface != nullptr) b_.kick_surface(*b_.surface, b_, false, dt);
+    exec::for_each_item(b_.boundary.held_count,
+                        ArriveAlongDirections<D>{dt, b_.boundary.held, read(b_.v), read(b_.a), write(b_.v)});
+    if (b_.boundary.surface != nullptr) b_.boundary.kick_surface(*b_.boundary.surface, b_, false, dt);
   }
 
   /// Completes the data that the first sweep reads.

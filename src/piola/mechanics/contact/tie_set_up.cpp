@@ -18,6 +18,34 @@ constexpr double opposed = 0.5;       // cosine between the normals of a point a
 
 std::size_t index(Index k) { return static_cast<std::size_t>(k); }
 
+/// Points and areas of one tie and side that are near enough to be held, and those left.
+class TiedAreas {
+ public:
+  explicit TiedAreas(Ties::TieReport& report) : report_(report) {}
+  /// far: from the other side [spacings]; area [m^(D-1)]. Returns whether the point is held.
+  bool hold(std::size_t side, double far, double area) {
+    report_.nearest = std::min(report_.nearest, far);
+    if (far > near_enough) {
+      report_.left += 1;
+      left_ += area;
+      return false;
+    }
+    report_.farthest = std::max(report_.farthest, far);
+    report_.points[side] += 1;
+    held_ += area;
+    return true;
+  }
+  /// Adds the areas to the report.
+  void finish() const {
+    report_.area += held_.value();
+    report_.left_area += left_.value();
+  }
+
+ private:
+  Ties::TieReport& report_;
+  exec::ReproducibleSum held_, left_;
+};
+
 }  // namespace
 
 /// Surfaces where they are at the start.
@@ -85,12 +113,11 @@ void Ties::bind(std::size_t tie, std::size_t side, Binding const& at) {
   PairRule const pair = pair_rule(rule.stiffness, own.modulus, own.spacing, other.modulus, other.spacing);
   double const K = 2 * pair.stiffness, dp = 2 * pair.length;  // of both sides together
   CohesiveLaw const law = cohesive_law(K, rule.strength, rule.toughness, rule.shear_weight);
-  TieReport& found = found_[tie];
-  found.stiffness = K;
+  found_[tie].stiffness = K;
+  TiedAreas areas(found_[tie]);
   std::vector<std::array<double, 3>> places;
   for (Plane const& plane : at.planes[b]) places.push_back({plane.y[0], plane.y[1], plane.y[2]});
   CellGrid const grid(places, pair.reach);
-  exec::ReproducibleSum held, left;
   for (std::size_t k = 0; k < own.points.size(); ++k) {
     SurfacePoint const& point = own.points[k];
     if (!selects(rule, point, at)) continue;
@@ -103,22 +130,12 @@ void Ties::bind(std::size_t tie, std::size_t side, Binding const& at) {
     if (!gap.seen()) continue;
     double const seen = fade(gap.tau2(), pair.fade_from, pair.fade_to).value * coverage(gap.weight).value;
     if (!(seen > least_share)) continue;
-    double const far = std::fabs(gap.gap) / dp;
-    found.nearest = std::min(found.nearest, far);
     double const area = 0.5 * seen * point.area;
-    if (far > near_enough) {
-      found.left += 1;
-      left += area;
-      continue;
-    }
-    found.farthest = std::max(found.farthest, far);
-    found.points[side] += 1;
-    held += area;
+    if (!areas.hold(side, std::fabs(gap.gap) / dp, area)) continue;
     for (auto& share : shares) share.second /= gap.weight;
     add_row(tie, {a, k, b}, area, law, at, shares);
   }
-  found.area += held.value();
-  found.left_area += left.value();
+  areas.finish();
 }
 
 /// Ties the points of a body that lie on a rigid shape, with the whole law: the shape has no points of its own.
@@ -128,9 +145,8 @@ void Ties::bind_to_rigid(std::size_t tie, RigidSurface const& rigid, Binding con
   Surface const& own = at.surfaces[a];
   double const K = penalty_stiffness(1, rule.stiffness, own.modulus, own.spacing);
   CohesiveLaw const law = cohesive_law(K, rule.strength, rule.toughness, rule.shear_weight);
-  TieReport& found = found_[tie];
-  found.stiffness = K;
-  exec::ReproducibleSum held, left;
+  found_[tie].stiffness = K;
+  TiedAreas areas(found_[tie]);
   for (std::size_t k = 0; k < own.points.size(); ++k) {
     SurfacePoint const& point = own.points[k];
     if (!selects(rule, point, at)) continue;
@@ -138,21 +154,12 @@ void Ties::bind_to_rigid(std::size_t tie, RigidSurface const& rigid, Binding con
     Distance const d = distance_from(rigid, plane.y);
     double const far = std::fabs(d.value) / own.spacing;
     if (!(far < looked_at) || !(-dot(plane.n, d.normal) > opposed)) continue;
-    found.nearest = std::min(found.nearest, far);
-    if (far > near_enough) {
-      found.left += 1;
-      left += point.area;
-      continue;
-    }
-    found.farthest = std::max(found.farthest, far);
-    found.points[0] += 1;
-    held += point.area;
+    if (!areas.hold(0, far, point.area)) continue;
     add_row(tie, {a, k, at.surfaces.size() + *rule.rigid}, point.area, law, at, {});
     rows_.back().rigid = *rule.rigid;
     rows_.back().arm = transpose(rigid.turn) * (plane.y - rigid.centre);
   }
-  found.area = held.value();
-  found.left_area = left.value();
+  areas.finish();
 }
 
 /// Whether a tie means a point at all.
