@@ -23,7 +23,10 @@ std::string const plate = R"({ box = { min = [0, 0], max = [2, 1] }, spacing = 0
 Image drawn(std::string const& text, ShapePictureOptions options) {
   ParticleSet particles;
   CaseSpec const spec = read_case_text(text, "case.toml", {}, {}, &particles);
-  options.look.size = {400, 300};
+  options.look.push_back([](PictureSpec& picture) {
+    picture.width = 400;
+    picture.height = 300;
+  });
   return draw_shape(spec, particles, options);
 }
 
@@ -60,8 +63,10 @@ TEST(ShapePicture, AViewThatIsGivenCounts) {
   std::string const text =
       two_bodies(R"({ torus = { centre = [0, 0, 0], radius = 2, tube_radius = 1 }, spacing = 0.4 })",
                  R"({ cone = { centre = [8, 0, 0], radius = 2, length = 3 }, spacing = 0.4 })");
-  Image const own = drawn(text, {}), above = drawn(text, {.look = {.view = {{30, 80}}}}),
-              other = drawn(text, {.look = {.up = "z"}});
+  Image const own = drawn(text, {}), above = drawn(text, {.look = {[](PictureSpec&picture) {
+                                                            picture.view = {30, 80};
+                                                          }}}),
+              other = drawn(text, {.look = {[](PictureSpec&picture) { picture.up = "z"; }}});
   EXPECT_NE(own.rgb, above.rgb);
   EXPECT_NE(own.rgb, other.rgb);
   EXPECT_GT(pixels_like(above, first_colour), 2000);
