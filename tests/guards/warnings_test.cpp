@@ -190,6 +190,17 @@ TEST(Warnings, SettingsThatAdaptleIgnores) {
   });
 }
 
+TEST(Warnings, SettingsOfAdaptleConcernItsOwnBodiesAlone) {
+  std::string const other =
+      "[[body]]\nname = \"other\"\nshape = { box = { min = [2, 0], max = [2.8, 0.8] }, particles = [8, 8], placement = "
+      "\"cell_centred\" }\nmaterial = { density = 1000, youngs_modulus = 1e7, " +
+      perfect + " }\nformulation = { name = \"nodal\" }\n";
+  std::string const ignored = about("correction_limit", warnings(adaptle(", correction_limit = 5", other)));
+  EXPECT_NE(ignored, "");
+  EXPECT_EQ(about("correction", warnings(adaptle(", correction = \"mixed\"", other))), "");
+  EXPECT_EQ(about("kernel", warnings(adaptle(", kernel = \"wendland_c2\"", other))), "");
+}
+
 TEST(Warnings, MaterialsThatCannotFail) {
   EXPECT_NE(about("convert_damage has no effect", warnings(adaptle(", convert_damage = 0.5"))), "");
   EXPECT_NE(about("failed has no effect", warnings(adaptle(", failed = \"release\""))), "");
