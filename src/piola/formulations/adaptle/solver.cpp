@@ -170,8 +170,9 @@ void Solver::save(StateWriter& writer) const {
   std::vector<Index> const ids = local_ids();
   particles_.data().each_saved(particles_.fields(), [&](Field const& field) {
     std::vector<double> mine(ids.size() * at(field.components()));
-    each_value(field, mine,
-               [&](double& value, Index i, int c) { value = particles_.data().is_saved(field, i) ? field.at(i, c) : 0; });
+    each_value(field, mine, [&](double& value, Index i, int c) {
+      value = particles_.data().is_saved(field, i) ? field.at(i, c) : 0;
+    });
     writer.put_rows(field.name(), rows_of(field, ids), mine);
   });
   writer.put("books", particles_.energy_totals().state());
