@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/body_loads.hpp"
 #include "piola/base/contracts.hpp"
-#include "piola/mechanics/body_supports.hpp"
 #include <algorithm>
 #include <utility>
 

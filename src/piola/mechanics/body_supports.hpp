@@ -13,11 +13,6 @@
 
 namespace piola {
 
-/// Whether a slot is local; `own` empty: all are.
-inline bool is_local(std::optional<Range> const& own, Index slot) {
-  return !own || (slot >= own->first && slot < own->last);
-}
-
 /// Supports of one body: the particles that they hold, the held directions with their speeds, and the impulses of the
 /// supports.
 class BodySupports {
@@ -33,7 +28,7 @@ class BodySupports {
   BodySupports(int dimension, std::vector<Support> const& supports, bool multiplied);
 
   bool multiplied() const { return multiplied_; }
-  /// As the functions of BodyBoundary.
+  /// See the functions of BodyBoundary with these names.
   std::size_t add_particle(PrescribedParticle const& particle);
   void add_row(std::size_t particle, std::size_t support, Direction const& direction);
   void add_supports(std::vector<Support> const& supports, std::function<bool(std::int64_t id)> const& takes,

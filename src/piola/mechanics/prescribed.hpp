@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/device_loops.hpp"
 #include "piola/mechanics/support.hpp"
 #include <array>
 #include <limits>
@@ -10,6 +11,11 @@
 namespace piola {
 
 using Direction = std::array<double, 3>;
+
+/// Whether a slot is local; `own` empty: all are.
+inline bool is_local(std::optional<Range> const& own, Index slot) {
+  return !own || (slot >= own->first && slot < own->last);
+}
 
 /// Whether `until` is reached, up to the round-off of a sum of many steps.
 bool has_ended(double until, double time);

@@ -13,7 +13,7 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-/// Share of the stability limit of a pair of kicks that is used; the steps of formulations have theirs in them.
+/// Fraction of the stability limit of a pair of kicks that is used. The steps of formulations already contain theirs.
 constexpr double margin = 0.85;
 
 /// For a step h = 2 margin / omega: contact and ties add to the square of the frequency of the bodies.
@@ -25,7 +25,7 @@ constexpr std::array<std::string_view, 4> offered_by_contact{"ContactPressure", 
 
 }  // namespace
 
-void ContactCoupling::look(Formulations const& formulations) {
+void ContactCoupling::start(Formulations const& formulations) {
   PIOLA_EXPECTS(formulations.size() == particles_.group_count());
   particles_.read_masses(formulations);
   particles_.read_motion(formulations);

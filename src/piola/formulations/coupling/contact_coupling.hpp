@@ -26,7 +26,7 @@ class ContactCoupling {
   ContactCoupling(Assembly const& whole, std::vector<FormulationGroup> const& parts);
 
   /// Evaluates the forces of the current state: before the first step and after loading a checkpoint.
-  void look(Formulations const& formulations);
+  void start(Formulations const& formulations);
   void begin(Formulations const& formulations, double time, double dt);   ///< before the step of the parts
   void finish(Formulations const& formulations, double time, double dt);  ///< after the step of the parts; time [s] at
                                                                           ///< its end

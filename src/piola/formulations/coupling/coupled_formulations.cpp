@@ -73,7 +73,7 @@ class CoupledFormulations : public Formulation, public Observables {
         nothing_(whole.supports, whole.loads, whole.rigid_shapes) {
     for (auto const& formulation : formulations_) coupled_.push_back(formulation->coupled_particles());
     if (!whole.surfaces.empty()) contact_ = std::make_unique<ContactCoupling>(whole, parts_);
-    if (contact_) contact_->look(coupled_);
+    if (contact_) contact_->start(coupled_);
     support_count_ = whole.supports.size();
     for (Load const& load : whole.loads) load_count_ += load.name.empty() ? 0 : 1;
     for (FormulationGroup& part : parts_) {
@@ -128,7 +128,7 @@ class CoupledFormulations : public Formulation, public Observables {
     }
     if (!contact_) return;
     contact_->load(reader);
-    contact_->look(coupled_);
+    contact_->start(coupled_);
   }
   RunStatistics statistics() const override;
   CoupledParticles* coupled_particles() override { return nullptr; }
@@ -203,19 +203,16 @@ Diagnostics CoupledFormulations::diagnose() const {
   sum.bodies.resize(body_count_);
   std::vector<Diagnostics> all;
   double balanced = 0;
-  bool tells_balance = false;
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     all.push_back(formulations_[k]->diagnose());
     Diagnostics const& d = all.back();
     add_totals(sum, d, k == 0);
     balanced += balanced_energy(d);
-    tells_balance = tells_balance || std::any_of(d.more.begin(), d.more.end(),
-                                                 [](auto const& column) { return column.first == "centred_energy"; });
     for (std::size_t b = 0; b < std::min(d.bodies.size(), parts_[k].blocks.size()); ++b)
       sum.bodies[parts_[k].blocks[b].body] = d.bodies[b];
   }
   for (auto& [name, value] : sum.more)
-    if (tells_balance && name == "centred_energy") value = balanced;
+    if (name == "centred_energy") value = balanced;
   sum.actions = actions_of(all);
   if (contact_) contact_->report(sum);
   return sum;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/body_contact.hpp"
 #include "piola/exec/host_loops.hpp"
+#include "piola/math/array_conversion.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <array>
@@ -12,7 +13,7 @@ namespace {
 /// Opposing normals have a negative product; until lists are rebuilt they rotate by no more than this margin allows.
 constexpr double facing = 0.8;
 
-/// The box around some places.
+/// Bounding box of points.
 struct Box {
   Vec<3> low{{1e300, 1e300, 1e300}}, high{{-1e300, -1e300, -1e300}};
   void add(Vec<3> const& y) {
@@ -47,7 +48,7 @@ void BodyContact::search(ContactModel const& model, std::vector<std::vector<Inde
     if (!of_body[b].empty()) search_body(model, b, of_body[b], skin);
 }
 
-/// Sources of body b for every point that may be near it.
+/// Lists the planes of body b near each point that can be in contact with it.
 void BodyContact::search_body(ContactModel const& model, std::size_t b, std::vector<Index> const& of_body,
                               double skin) {
   SurfacePoints const& points = model.points;
@@ -57,7 +58,7 @@ void BodyContact::search_body(ContactModel const& model, std::size_t b, std::vec
   for (Index const k : of_body) {
     Vec<3> const& y = points.plane(k).y;
     box.add(y);
-    places.push_back({y[0], y[1], y[2]});
+    places.push_back(array_of(y));
   }
   auto const reach = [&](Index k) {
     SurfacePoints::Point const& p = points[k];
@@ -74,7 +75,7 @@ void BodyContact::search_body(ContactModel const& model, std::size_t b, std::vec
     Vec<3> const& y = points.plane(k).y;
     if (!(r > 0) || model.definition.is_removed(k) || model.definition.is_excluded(k, b) || !box.holds(y, r)) continue;
     std::size_t const first = sources_.size();
-    grid.visit({y[0], y[1], y[2]}, [&](Index j) {
+    grid.visit(array_of(y), [&](Index j) {
       Index const source = of_body[at(j)];
       if (square_of(points.plane(source).y - y) < r * r && can_touch(model, k, source)) sources_.push_back(source);
     });
@@ -88,7 +89,7 @@ void BodyContact::mark(std::vector<char>& points) const {
   for (Index const k : sources_) points[at(k)] = 1;
 }
 
-/// Over the planes of a range with weight only, because the list may contain any others [1/kg].
+/// Largest inverse mass of the planes of a range that have weight [1/kg]. The list may contain others.
 double BodyContact::largest_inverse_mass(SurfacePoints const& points, Range const& range) const {
   double inverse = 0;
   for (std::size_t s = range.first; s < range.last; ++s)
@@ -111,17 +112,18 @@ void BodyContact::find_gaps(ContactModel const& model) {
 
 void BodyContact::evaluate(ContactModel& model, ContactState& state) {
   find_gaps(model);
-  for (std::size_t k = 0; k < ranges_.size(); ++k) evaluate(ranges_[k], gaps_[k], model, state);
+  for (std::size_t k = 0; k < ranges_.size(); ++k)
+    if (gaps_[k].seen()) evaluate(ranges_[k], gaps_[k], model, state);
 }
 
-/// Forces between one target and its planes.
+/// Forces between one target and the planes that it sees.
 void BodyContact::evaluate(Range const& range, Gap const& gap, ContactModel& model, ContactState& state) {
   SurfacePoints const& points = model.points;
   ContactForces& forces = state.forces;
   SurfacePoints::Point const& target = points[range.target];
   PairRule const& rule = model.definition.rule(target.body, range.body);
   double const dp = 2 * rule.length;
-  if (!gap.seen() || !(gap.gap < near * dp)) return;
+  if (!(gap.gap < near * dp)) return;
   Fade const theta = fade(gap.tau2(), rule.fade_from, rule.fade_to);
   double const seen = theta.value * coverage(gap.weight).value;
   if (!(seen > 0)) return;

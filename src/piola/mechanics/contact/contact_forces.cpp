@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/contact_forces.hpp"
 #include "piola/mechanics/contact/state_vector.hpp"
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

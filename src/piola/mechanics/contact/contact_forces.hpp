@@ -25,12 +25,12 @@ class ContactForces {
 
   void clear();
   void add_load(Index point, PointLoad const& load);
-  /// A point behind a surface with a layer of this energy [J].
+  /// Adds a point behind a surface, by the energy of its layer [J].
   void add_contact(double energy) {
     energy_ += energy;
     ++totals_.touched;
   }
-  /// A friction spring: its energy and the work taken by it [J].
+  /// Adds a friction spring, by its energy and the work taken by it [J].
   void add_friction(double energy, double work) {
     spring_energy_ += energy;
     friction_work_ += work;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/contact_resultants.hpp"
 #include "piola/mechanics/contact/state_vector.hpp"
+#include <algorithm>
 
 namespace piola::contact {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/mechanics/contact/force_moment.hpp"
-#include <algorithm>
 #include <map>
 #include <utility>
 #include <vector>

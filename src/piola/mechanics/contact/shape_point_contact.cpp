@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/mechanics/contact/shape_point_contact.hpp"
 #include "piola/exec/host_loops.hpp"
+#include "piola/math/array_conversion.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <array>
@@ -46,15 +47,12 @@ void ShapePointContact::search(ContactModel const& model, std::vector<std::vecto
     double const reach = pass.rule.reach + skin;
     std::vector<std::array<double, 3>> places;
     places.reserve(points.size());
-    for (Index const k : points) {
-      Vec<3> const& y = model.points.plane(k).y;
-      places.push_back({y[0], y[1], y[2]});
-    }
+    for (Index const k : points) places.push_back(array_of(model.points.plane(k).y));
     CellGrid const grid(places, reach);
     for (ShapePoint const& point : candidates) {
       Vec<3> const y = rigid.centre + rigid.turn * point.arm;
       std::size_t const first = sources_.size();
-      grid.visit({y[0], y[1], y[2]}, [&](Index j) {
+      grid.visit(array_of(y), [&](Index j) {
         Index const source = points[at(j)];
         if (square_of(model.points.plane(source).y - y) < reach * reach && model.allows(source, pass.rigid))
           sources_.push_back(source);
@@ -69,7 +67,8 @@ void ShapePointContact::mark(std::vector<char>& points) const {
   for (Index const k : sources_) points[at(k)] = 1;
 }
 
-/// Behind a mirror plane of the body a point of a shape counts in its image; on the plane half of it is in front.
+/// Weight of a point of a shape: 1 in front of a mirror plane of the body, 1/2 on it, and 0 behind it, where its image
+/// counts.
 double ShapePointContact::weight_at_mirrors(ContactModel const& model, Range const& range) const {
   std::size_t const body = model.definition.shape_passes()[range.pass].body;
   double weight = 1;

@@ -10,7 +10,7 @@ namespace piola::contact {
 
 inline void put(std::vector<double>& all, Vec<3> const& a) { all.insert(all.end(), a.c, a.c + 3); }
 
-/// Puts how many of the numbers k < n are in the list, `contains(k)`, and for each k and what put_values(k) adds.
+/// Puts the count of all k < n with contains(k), then each of these k with the values that put_values(k) adds.
 template <class Contains, class PutValues>
 void put_some(std::vector<double>& all, std::size_t n, Contains const& contains, PutValues const& put_values) {
   std::size_t const count = all.size();

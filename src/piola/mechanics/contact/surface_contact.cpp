@@ -91,7 +91,7 @@ std::vector<double> SurfaceContactSystem::state() const {
   return all;
 }
 
-/// As after an evaluation at x.
+/// Restores the state after an evaluation at x.
 void SurfaceContactSystem::restore(std::vector<Vec<3>> const& x, std::vector<double> const& state) {
   PIOLA_EXPECTS(x.size() >= ids().size());
   StateVector from(state);
