@@ -7,19 +7,16 @@
 #include <vector>
 
 namespace piola::jst_sph {
+namespace {
+
+constexpr int far = 1;  ///< cutoff level of the halo whose ghosts Laplacians and the filter read
+
+}  // namespace
 
 template <class F>
 void FieldSetUp::each_local(F const& f) const {
   Range const own = body_.own();
   exec_host::parallel_for(own.last - own.first, [&](Index k) { f(own.first + k); });
-}
-
-void FieldSetUp::update_ghosts_once(FieldRef const& field, int first, int count) const {
-  HaloPlan once = s_.halo->without_fields();
-  FieldRef part = field;
-  part.data += first * field.component_stride;
-  once.add(part, 0, count, 1);
-  once.exchange(part);
 }
 
 void FieldSetUp::fill_records(NeighbourRecords& records, ReferencePairs const& pairs) const {
@@ -40,7 +37,10 @@ void FieldSetUp::fill_records(NeighbourRecords& records, ReferencePairs const& p
     for (int c = 0; c < D; ++c) value_at(s_.second, i, at + c) = corrections.alpha[slot][static_cast<std::size_t>(c)];
     value_at(s_.second, i, at + D) = corrections.beta[slot];
   });
-  if (s_.halo != nullptr) update_ghosts_once(s_.second, first, count);
+  if (s_.halo == nullptr) return;
+  FieldRef constants = s_.second;
+  constants.data += first * constants.component_stride;
+  exchange_once(*s_.halo, constants, count, far);
 }
 
 void FieldSetUp::fill_reference(UniqueLaneGroups const& groups, ReferencePairs const& pairs) const {
@@ -79,7 +79,7 @@ void FieldSetUp::fill_filter(ReferencePairs const& pairs) const {
   std::vector<double> volumes(static_cast<std::size_t>(body_.slots()));
   for (Index i = 0; i < body_.particles(); ++i) volumes[static_cast<std::size_t>(i)] = body_.mirrored_volume(i);
   ReferencePairs::FilterShare const communication{
-      body_.own(), [&](std::vector<double>& values) { update_ghosts_once({.data = values.data()}, 0, 1); },
+      body_.own(), [&](std::vector<double>& values) { exchange_once(*s_.halo, {.data = values.data()}, 1, far); },
       comm::allreduce_max};
   auto const filter = pairs.make_filter(volumes, s_.halo != nullptr ? &communication : nullptr);
   each_local([&](Index i) {

@@ -24,8 +24,6 @@ class FieldSetUp {
   /// Calls f(slot) for the local particles, in parallel.
   template <class F>
   void each_local(F const& f) const;
-  /// Updates components [first, first + count) of constant data that far ghosts also need.
-  void update_ghosts_once(FieldRef const& field, int first, int count) const;
   void deform_to_positions();
 
   JstBody& body_;
