@@ -70,9 +70,10 @@ class JstBody {
   Mat<3> F(Index slot) const;
   Mat<3> H(Index slot) const;  ///< the evolved H if there is one, else cof F
   double J(Index slot) const;  ///< the evolved J if there is one, else det F
-  /// Tributary volume in the body itself, and in the body continued by mirror planes.
+  double replicated_mass(Index slot) const { return volume(slot) * state_.constants.rho0; }  ///< of any particle [kg]
+  /// Tributary volume in the body itself.
   double volume(Index slot) const { return set_->volume[static_cast<std::size_t>(id(slot))]; }
-
+  /// Tributary volume in the body continued by mirror planes.
   double mirrored_volume(Index slot) const { return volume(slot) * images_.multiplicity(slot); }
 
   static double value(FieldRef const& f, Index slot, int c = 0) { return value_at(f, slot, c); }
