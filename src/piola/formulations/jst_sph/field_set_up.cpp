@@ -13,15 +13,9 @@ constexpr int far = 1;  ///< cutoff level of the halo whose ghosts Laplacians an
 
 }  // namespace
 
-template <class F>
-void FieldSetUp::each_local(F const& f) const {
-  Range const own = body_.own();
-  exec_host::parallel_for(own.last - own.first, [&](Index k) { f(own.first + k); });
-}
-
 void FieldSetUp::fill_records(NeighbourRecords& records, ReferencePairs const& pairs) const {
   if (!s_.regular) {
-    each_local([&](Index i) { records.set_position(i, body_.X(i)); });
+    exec_host::parallel_for(body_.own(), [&](Index i) { records.set_position(i, body_.X(i)); });
     if (s_.halo != nullptr)
       for (Index const i : s_.halo->received()) records.set_position(i, body_.X(i));
     auto const& images = body_.images().particles().X;
@@ -32,7 +26,7 @@ void FieldSetUp::fill_records(NeighbourRecords& records, ReferencePairs const& p
   if (count == 0) return;
   auto const& corrections = pairs.corrections();
   int const D = s_.dimension, at = first;
-  each_local([&](Index i) {
+  exec_host::parallel_for(body_.own(), [&](Index i) {
     auto const slot = corrections.at(i);
     for (int c = 0; c < D; ++c) value_at(s_.second, i, at + c) = corrections.alpha[slot][static_cast<std::size_t>(c)];
     value_at(s_.second, i, at + D) = corrections.beta[slot];
@@ -45,8 +39,7 @@ void FieldSetUp::fill_records(NeighbourRecords& records, ReferencePairs const& p
 
 void FieldSetUp::fill_reference(UniqueLaneGroups const& groups, ReferencePairs const& pairs) const {
   int const D = s_.dimension;
-  exec_host::parallel_for(s_.slots.last - s_.slots.first, [&](Index k) {
-    Index const i = s_.slots.first + k;
+  exec_host::parallel_for(s_.slots, [&](Index i) {
     for (int c = 0; c < D; ++c) {
       value_at(s_.F, i, c * D + c) = 1;
       if (!s_.has.verlet) value_at(s_.F_star, i, c * D + c) = 1;
@@ -71,8 +64,8 @@ void FieldSetUp::fill_reference(UniqueLaneGroups const& groups, ReferencePairs c
       if (i < body_.particles()) fill(to, i);
     });
   else
-    each_local([&](Index i) { fill(i, i); });
-  if (s_.has.mirrored) each_local([&](Index i) { value_at(s_.weight, i) = body_.volume(i); });
+    exec_host::parallel_for(body_.own(), [&](Index i) { fill(i, i); });
+  if (s_.has.mirrored) exec_host::parallel_for(body_.own(), [&](Index i) { value_at(s_.weight, i) = body_.volume(i); });
 }
 
 void FieldSetUp::fill_filter(ReferencePairs const& pairs) const {
@@ -82,7 +75,7 @@ void FieldSetUp::fill_filter(ReferencePairs const& pairs) const {
       body_.own(), [&](std::vector<double>& values) { exchange_once(*s_.halo, {.data = values.data()}, 1, far); },
       comm::allreduce_max};
   auto const filter = pairs.make_filter(volumes, s_.halo != nullptr ? &communication : nullptr);
-  each_local([&](Index i) {
+  exec_host::parallel_for(body_.own(), [&](Index i) {
     value_at(s_.filter_scale, i) = filter.scale[static_cast<std::size_t>(i)];
     value_at(s_.filter_sum, i) = filter.sum[static_cast<std::size_t>(i)];
   });
@@ -92,7 +85,7 @@ void FieldSetUp::fill_initial(Assembly const& assembly) {
   int const D = s_.dimension;
   auto const& moved = assembly.initial_displacement;
   auto const& deformed = assembly.initial_deformation_gradient;
-  each_local([&](Index i) {
+  exec_host::parallel_for(body_.own(), [&](Index i) {
     auto const at = static_cast<std::size_t>(body_.id(i));
     for (int c = 0; c < D; ++c) {
       auto const k = static_cast<std::size_t>(c);
@@ -101,7 +94,7 @@ void FieldSetUp::fill_initial(Assembly const& assembly) {
     }
   });
   if (!deformed.empty() && !s_.has.displacement) {
-    each_local([&](Index i) {
+    exec_host::parallel_for(body_.own(), [&](Index i) {
       for (int c = 0; c < D * D; ++c)
         value_at(s_.F, i, c) = deformed[static_cast<std::size_t>(body_.id(i))][std::size_t{3} * (c / D) + c % D];
     });

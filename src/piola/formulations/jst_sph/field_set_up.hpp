@@ -21,9 +21,6 @@ class FieldSetUp {
   void fill_evolved_geometry() const;
 
  private:
-  /// Calls f(slot) for the local particles, in parallel.
-  template <class F>
-  void each_local(F const& f) const;
   void deform_to_positions();
 
   JstBody& body_;

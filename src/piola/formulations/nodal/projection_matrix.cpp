@@ -37,13 +37,6 @@ ProjectionMatrix<D>::ProjectionMatrix(LocalFits<D> const& fits, LazyZeroArray<Sc
   state_.list = {begin_.data(), nullptr, pairs.neighbour.data(), pairs.weight.data()};
 }
 
-/// f(i) for the local particles.
-template <int D>
-template <class F>
-void ProjectionMatrix<D>::for_each_local(F const& f) const {
-  exec_host::parallel_for(own_.last - own_.first, [&](Index k) { f(own_.first + k); });
-}
-
 template <int D>
 void ProjectionMatrix<D>::distribute(HaloPlan const& halo) {
   state_.slots = even_local_range({0, slots_});
@@ -176,12 +169,12 @@ typename ProjectionMatrix<D>::Inverse ProjectionMatrix<D>::fill_sums(LocalFits<D
 
 template <int D>
 void ProjectionMatrix<D>::apply(LazyZeroArray<double> const& x, LazyZeroArray<double>& image) {
-  for_each_local([&](Index i) {
+  exec_host::parallel_for(own_, [&](Index i) {
     for (int c = 0; c < D; ++c)
       value_at(state_.x, i, c) = x[static_cast<std::size_t>(i) * D + static_cast<std::size_t>(c)];
   });
   backend_.project(state_, {inverse_.ref(), weights_.ref(), coefficients_->ref()});
-  for_each_local([&](Index i) {
+  exec_host::parallel_for(own_, [&](Index i) {
     for (int c = 0; c < D; ++c)
       image[static_cast<std::size_t>(i) * D + static_cast<std::size_t>(c)] = value_at(state_.a, i, c);
   });

@@ -36,8 +36,6 @@ class ProjectionMatrix {
   std::unique_ptr<Field> take_coefficients() { return std::move(coefficients_); }
 
  private:
-  template <class F>
-  void for_each_local(F const& f) const;
   void allocate(LatticeLayout const* lattice);
   void distribute(HaloPlan const& halo);
   void fill(LocalFits<D> const& fits, LazyZeroArray<ScaledCell> const& cells);
