@@ -4,15 +4,16 @@
 #include "piola/formulations/assembly.hpp"
 #include "piola/formulations/common/body_halo.hpp"
 #include "piola/formulations/common/mirror_images.hpp"
+#include "piola/formulations/common/unique_lane_groups.hpp"
 #include "piola/formulations/formulation.hpp"
 #include "piola/formulations/jst_sph/boundary_conditions.hpp"
 #include "piola/formulations/jst_sph/neighbour_records.hpp"
 #include "piola/formulations/jst_sph/options.hpp"
 #include "piola/formulations/jst_sph/state.hpp"
-#include "piola/formulations/jst_sph/unique_lane_groups.hpp"
 #include "piola/math/tensor.hpp"
 #include "piola/neighbours/reference_pairs.hpp"
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace piola::jst_sph {
@@ -82,6 +83,7 @@ class JstBody {
  private:
   std::optional<Cloud> cloud() const;
   void make_pairs(Backend const& backend);
+  void group_lanes(int lanes);
   void distribute(int lanes);
   std::vector<Index> slots_of_neighbours(int lanes, bool far) const;
   void set_constants(MaterialParameters const& material);
@@ -97,7 +99,7 @@ class JstBody {
   FieldList fields_;
   BodyState state_;
   NeighbourRecords records_;
-  std::unique_ptr<UniqueLaneGroups> groups_;
+  std::optional<UniqueLaneGroups> groups_;  ///< of reference data, if the pair tables are stencils
   Boundary boundary_;
   std::vector<double> partial_;
   DeferredGlobalSum external_work_;

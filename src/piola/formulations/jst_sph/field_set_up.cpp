@@ -37,7 +37,7 @@ void FieldSetUp::fill_records(NeighbourRecords& records, ReferencePairs const& p
   exchange_once(*s_.halo, constants, count, far);
 }
 
-void FieldSetUp::fill_reference(UniqueLaneGroups const& groups, ReferencePairs const& pairs) const {
+void FieldSetUp::fill_reference(UniqueLaneGroups const* groups, ReferencePairs const& pairs) const {
   int const D = s_.dimension;
   exec_host::parallel_for(s_.slots, [&](Index i) {
     for (int c = 0; c < D; ++c) {
@@ -59,10 +59,8 @@ void FieldSetUp::fill_reference(UniqueLaneGroups const& groups, ReferencePairs c
     value_at(s_.beta, to) = corrections.beta[slot];
     value_at(s_.diagonal, to) = corrections.diagonal[slot];
   };
-  if (s_.regular)
-    groups.each([&](Index to, Index i) {
-      if (i < body_.particles()) fill(to, i);
-    });
+  if (groups != nullptr)
+    groups->each(body_.particles(), fill);
   else
     exec_host::parallel_for(body_.own(), [&](Index i) { fill(i, i); });
   if (s_.has.mirrored) exec_host::parallel_for(body_.own(), [&](Index i) { value_at(s_.weight, i) = body_.volume(i); });

@@ -12,7 +12,8 @@ class FieldSetUp {
 
   /// Positions and constant corrections that sweeps read at neighbours.
   void fill_records(NeighbourRecords& records, ReferencePairs const& pairs) const;
-  void fill_reference(UniqueLaneGroups const& groups, ReferencePairs const& pairs) const;
+  /// groups: those that the reference fields are stored for; nullptr: one value per slot.
+  void fill_reference(UniqueLaneGroups const* groups, ReferencePairs const& pairs) const;
   /// Scaling of the volumetric filter.
   void fill_filter(ReferencePairs const& pairs) const;
   /// Position, velocity and F of t = 0.

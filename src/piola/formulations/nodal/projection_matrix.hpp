@@ -2,7 +2,6 @@
 #pragma once
 #include "piola/formulations/nodal/integration_constraint.hpp"
 #include "piola/formulations/nodal/neighbour_records.hpp"
-#include "piola/formulations/nodal/unique_lane_groups.hpp"
 #include <algorithm>
 #include <array>
 #include <memory>
