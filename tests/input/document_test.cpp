@@ -80,7 +80,7 @@ TEST(Document, DangerousTextsAreRefusedBeforeParsing) {
   EXPECT_TRUE(mentions(problems_of(std::string(5'000'000, '#')), {"f:", "4 MB", "case file"}));
   std::string key = "a";
   for (int i = 0; i < 100; ++i) key += ".a";
-  EXPECT_TRUE(mentions(problems_of(key + " = 1"), {"f:1:130:", "64 dots"}));
+  EXPECT_TRUE(mentions(problems_of(key + " = 1"), {"f:1:130:", "64 dots", "case file"}));
   EXPECT_EQ(problems_of("a = \"" + std::string(100, '.') + "\" # " + std::string(100, '.')), "");
   EXPECT_EQ(problems_of("a = '''\n" + std::string(100, '.') + "'''"), "");
   EXPECT_NE(problems_of("a = " + std::string(5000, '[') + std::string(5000, ']')), "");
@@ -89,7 +89,7 @@ TEST(Document, DangerousTextsAreRefusedBeforeParsing) {
 TEST(Document, NestedBracketsAreRefusedInLinearTime) {
   EXPECT_EQ(problems_of("a = " + std::string(64, '[') + std::string(64, ']')), "");
   EXPECT_TRUE(mentions(problems_of("a = 1\nb = " + std::string(65, '[') + std::string(65, ']')),
-                       {"f:2:69:", "brackets", "64"}));
+                       {"f:2:69:", "brackets", "64", "case file"}));
   // In quadratic time each of these takes minutes.
   for (char const* piece : {"[", "[[", "{", "=", ",", "[ 1,", "{a=", "\"", "'", "[1 m", "=1"}) {
     std::string text = "a = ";

@@ -218,8 +218,7 @@ TEST(CaseLibrary, ProblemsOfItsFilesAreThoseOfTheCase) {
   EXPECT_NE(with.message().find("case.toml:1:23: "), std::string::npos) << with.message();
   EXPECT_NE(with.message().find("other.toml: cannot be read"), std::string::npos) << with.message();
   with.text = test::replaced(with.text, "[\"my.toml\", \"other.toml\"]", "\"my.toml\"");
-  EXPECT_EQ(test::missing_word(with.message(), {"case.toml:1:11: ", "library", "\"my.toml\"", "(allowed: a list"}), "")
-      << with.message();
+  EXPECT_TRUE(test::mentions(with.message(), {"case.toml:1:11: ", "library", "\"my.toml\"", "(allowed: a list"}));
 }
 
 /// The case.toml of a results folder reads the copy that the run began with.

@@ -42,7 +42,8 @@ TEST(ReadAppearance, CutsAlongAPlane) {
 TEST(ReadAppearance, NamesWhatIsWrong) {
   EXPECT_NE(refusal("as = \"marbles\"").find("output.pictures.as"), std::string::npos) << refusal("as = \"marbles\"");
   std::string const several = refusal("as = { column = \"glass\", wall = \"none\" }\ncut = { point = [0, 0, 0] }");
-  expect_words(several, {"output.pictures.as.column", "output.pictures.as names", "\"wall\"", "normal"});
+  expect_words(several,
+               {"output.pictures.as.column", "output.pictures.as names", "\"wall\" (allowed: column)", "normal"});
   EXPECT_NE(refusal("as = 3"), "");
   EXPECT_NE(refusal("cut = { point = [0, 0, 0], normal = [0, 0, 0] }"), "");
   EXPECT_NE(refusal("cut = { point = [0, 0, 0], normal = [0, 1, 0], show = \"half\" }"), "");

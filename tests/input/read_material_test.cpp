@@ -13,7 +13,7 @@ MaterialParameters material_of(std::string const& keys) {
   Problems problems;
   auto const document = parse_document("material = { " + keys + " }", "case.toml", problems);
   BodySpec body;
-  read_material(Section(*document->root.find("material"), "body.material", problems), material_library(), body);
+  read_material(Section(*document->root.find("material"), "body.material", problems), {}, body);
   problems.raise_if_any();
   return body.material;
 }

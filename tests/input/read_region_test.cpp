@@ -2,6 +2,7 @@
 // Places with names, and bodies of several materials.
 #include "piola/model/case_particles.hpp"
 #include "piola/model/read_case.hpp"
+#include "support/key_words.hpp"
 #include "support/places.hpp"
 #include "support/sample_case.hpp"
 #include <cmath>
@@ -20,8 +21,7 @@ std::string block(std::string const& regions, std::string const& more = "") {
 }
 
 void expect_problem(std::string const& text, std::string const& part) {
-  std::string const found = test::message_of(text);
-  EXPECT_NE(found.find(part), std::string::npos) << "wanted: " << part << "\nfound: " << found;
+  test::expect_words(test::message_of(text), {part});
 }
 
 std::string const two_regions = R"(

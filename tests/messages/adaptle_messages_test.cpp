@@ -57,8 +57,8 @@ TEST(AdaptleMessages, PairsOfBodiesShareTheirSettings) {
                                            {"assumption", "plane_strain", "plane_stress"}}) {
     Assembly a = two_boxes();
     a.formulations[1].words[name] = other;
-    EXPECT_TRUE(mentions(
-        refusal(a), {"body.formulation." + name, first, "\"box\"", other, "\"second\"", "the same for all bodies"}));
+    EXPECT_TRUE(mentions(refusal(a), {"body.formulation." + name, first, "\"box\"", other, "\"second\"",
+                                      "the same for all bodies", "make them equal"}));
     a.formulations[0].words[name] = other;
     EXPECT_EQ(refusal(a), "");
   }
@@ -66,8 +66,8 @@ TEST(AdaptleMessages, PairsOfBodiesShareTheirSettings) {
     Assembly a = two_boxes();
     a.formulations[0].numbers[name] = 1;
     a.formulations[1].numbers[name] = 2;
-    EXPECT_TRUE(mentions(
-        refusal(a), {"body.formulation." + name + " differs", "\"box\"", "\"second\"", "the same for all bodies"}));
+    EXPECT_TRUE(mentions(refusal(a), {"body.formulation." + name + " differs", "\"box\"", "\"second\"",
+                                      "the same for all bodies", "make them equal"}));
   }
 }
 
@@ -107,9 +107,9 @@ TEST(AdaptleMessages, AllProblemsAreReportedTogether) {
   Assembly a = two_boxes(3);
   choose(a, "assumption", "plane_stress");
   choose(a, "description", "patch");
-  EXPECT_TRUE(mentions_each(refusal(a), {{"plane_stress", "2D"},
-                                         {"body \"box\"", "patch", "eulerian_where"},
-                                         {"body \"second\"", "patch", "eulerian_where"}}));
+  EXPECT_TRUE(mentions_each(refusal(a), {{"plane_stress", "2D", "leave it out"},
+                                         {"body \"box\"", "patch", "eulerian_where", "add it"},
+                                         {"body \"second\"", "patch", "eulerian_where", "add it"}}));
 }
 
 TEST(AdaptleMessages, LawsMustBeInRateForm) {

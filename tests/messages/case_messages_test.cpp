@@ -88,7 +88,7 @@ TEST(CaseMessages, FormulasMustBeFiniteAtEveryParticle) {
                                               "initial_deformation_gradient = [[1, 0, 0], [0, \"1 - Y\", 0], [0, 0, "
                                               "1]]\ninitial_velocity")),
                        {"case.toml:13:32: body.initial_deformation_gradient", "determinant 0", "(-0.5, 1, -0.5) m",
-                        "column", "above 0"}));
+                        "column", "above 0", "inside out"}));
 }
 
 TEST(CaseMessages, FormulasCannotAssignOrUseThemselves) {
@@ -97,7 +97,7 @@ TEST(CaseMessages, FormulasCannotAssignOrUseThemselves) {
   EXPECT_EQ(message_of(sample_with("pi*Y/(2*L)", "w")),
             "case.toml:12:16: body.define.w uses itself, directly or through others - write it without \"w\"");
   EXPECT_TRUE(mentions(message_of(sample_with("L = 6", "L = 6\nsin = 3")),
-                       {"case.toml:5:1:", "sin", "has a meaning", "another name"}));
+                       {"case.toml:5:1:", "sin", "has a meaning", "letters, digits and _", "another name"}));
 }
 
 TEST(CaseMessages, WrongTypesSayWhatIsThereAndWhatIsAllowed) {
@@ -177,7 +177,7 @@ formulation = { name = "jst_sph" }
   EXPECT_TRUE(mentions(message_of(sample_case() + second),
                        {"case.toml:24:8:", "column", "taken by another body", "another name"}));
   EXPECT_TRUE(mentions(message_of(sample_case() + test::replaced(second, "\"column\"", "\"plate\"")),
-                       {"case.toml:25:9:", "plate", "2D", "column", "3D", "components"}));
+                       {"case.toml:25:9:", "plate", "2D", "column", "3D", "one dimension for all", "components"}));
 }
 
 TEST(CaseMessages, SettingsOfTheCommandLineAreNamed) {

@@ -44,39 +44,34 @@ class CaseFolder {
   testing::TemporaryFolder folder_;
 };
 
-bool contains(std::string const& text, std::string_view part) { return text.find(part) != std::string::npos; }
-
 TEST(CheckCommand, SaysInWordsWhatWouldRun) {
   CaseFolder const folder(test::sample_case());
   Answer const answer = ask("check " + folder.argument());
   EXPECT_EQ(answer.code, 0) << answer.text;
-  for (std::string_view const part :
-       {"Twisting column\n625 particles in 3D, 500 ms of motion\n",
-        "body \"column\": box of 625 particles (5 x 25 x 5 lattice, spacing 250 mm)\n",
-        "  neo_hookean: density = 1100 kg/m^3, youngs_modulus = 17 MPa, poissons_ratio = 0.45\n",
-        "  mass 6600 kg; pressure waves 242.1 m/s, shear waves 73 m/s; initial speed up to 74.25 m/s\n",
-        "support of \"column\": 25 particles where Y <= 0, held in x, y, z\n",
-        "  probes: tip.displacement_x, tip.pressure\n", "Nothing is wrong with this case.\n"}) {
-    EXPECT_TRUE(contains(answer.text, part)) << part << "\nis not in\n" << answer.text;
-  }
+  expect_words(answer.text,
+               {"Twisting column\n625 particles in 3D, 500 ms of motion\n",
+                "body \"column\": box of 625 particles (5 x 25 x 5 lattice, spacing 250 mm)\n",
+                "  neo_hookean: density = 1100 kg/m^3, youngs_modulus = 17 MPa, poissons_ratio = 0.45\n",
+                "  mass 6600 kg; pressure waves 242.1 m/s, shear waves 73 m/s; initial speed up to 74.25 m/s\n",
+                "support of \"column\": 25 particles where Y <= 0, held in x, y, z\n",
+                "  probes: tip.displacement_x, tip.pressure\n", "Nothing is wrong with this case.\n"});
 }
 
 TEST(CheckCommand, WarnsOfImplausibleNumbersAndRefusesBadOnes) {
   CaseFolder const folder(test::sample_case());
   Answer const warned = ask("check " + folder.argument() + " --set body.column.material.density=1.1");
   EXPECT_EQ(warned.code, 0);
-  EXPECT_TRUE(contains(warned.text, "body \"column\": density is 1.1 kg/m^3, lighter than foam")) << warned.text;
+  expect_words(warned.text, {"body \"column\": density is 1.1 kg/m^3, lighter than foam"});
   Answer const refused = ask("check " + folder.argument() + " --set run.end=x");
   EXPECT_EQ(refused.code, 2);
   expect_words(refused.text, {"--set run.end=x: run.end", "\"x\"", "number with a unit"});
 }
 
 TEST(DescribeCommand, ExplainsOneThingOrListsAll) {
-  EXPECT_TRUE(contains(ask("describe").text, "neo_hookean"));
-  EXPECT_TRUE(
-      contains(ask("describe material neo_hookean").text, "a number, between -1 and 0.5, ends excluded; required"));
-  EXPECT_TRUE(contains(ask("describe case run").text, "time at which the run ends"));
-  EXPECT_TRUE(contains(ask("describe kernel cubic_spline").text, "support 2h"));
+  expect_words(ask("describe").text, {"neo_hookean"});
+  expect_words(ask("describe material neo_hookean").text, {"a number, between -1 and 0.5, ends excluded; required"});
+  expect_words(ask("describe case run").text, {"time at which the run ends"});
+  expect_words(ask("describe kernel cubic_spline").text, {"support 2h"});
   Answer const unknown = ask("describe material neo_hooken");
   EXPECT_EQ(unknown.code, 2);
   EXPECT_EQ(unknown.text,
@@ -86,30 +81,29 @@ TEST(DescribeCommand, ExplainsOneThingOrListsAll) {
 
 TEST(DescribeCommand, TellsOfSolidsAndOfTheLibrary) {
   std::string const all = ask("describe material").text, law = ask("describe material johnson_cook").text;
-  expect_words(all, {"steel_4340                  johnson_cook: 4340 steel ", "shock and damage\n"});
-  EXPECT_TRUE(contains(all, "compressible_neo_hookean\n"));
-  expect_words(law, {"elastic, stiffened_gas, mie_grueneisen, polynomial", "default: \"elastic\""});
-  expect_words(law, {"D1 of the fracture strain", "only with damage = \"johnson_cook\"\n"});
-  EXPECT_TRUE(contains(law, "above 0; default: no limit\n")) << law;
+  expect_words(
+      all, {"steel_4340                  johnson_cook: 4340 steel (hardness Rockwell C 30), with shock and damage\n",
+            "compressible_neo_hookean\n"});
+  expect_words(law,
+               {"one of elastic, stiffened_gas, mie_grueneisen, polynomial; default: \"elastic\"",
+                "D1 of the fracture strain; only with damage = \"johnson_cook\"\n", "above 0; default: no limit\n"});
   Answer const steel = ask("describe material steel_4340");
   EXPECT_EQ(steel.code, 0);
-  for (std::string_view const part :
-       {"steel_4340\n  4340 steel",
-        "  law = \"johnson_cook\"\n  eos = \"mie_grueneisen\"\n  damage = \"johnson_cook\"\n  density = 7830 kg/m^3 ",
-        "  yield_stress = 792 MPa                      # johnson_cook_1983, quoted\n",
-        "  melting_temperature = 1793 K ", "  d3 = -2.12 ", "  range: flow stress: torsion",
-        "  lacks: no change of phase", "    johnson_cook_1985: G. R. Johnson, W. H. Cook, Fracture characteristics"}) {
-    EXPECT_TRUE(contains(steel.text, part)) << part << "\nis not in\n" << steel.text;
-  }
-  EXPECT_TRUE(contains(ask("describe material steel_4304").text, "did you mean \"steel_4340\"?"));
+  expect_words(
+      steel.text,
+      {"steel_4340\n  4340 steel",
+       "  law = \"johnson_cook\"\n  eos = \"mie_grueneisen\"\n  damage = \"johnson_cook\"\n  density = 7830 kg/m^3 ",
+       "  yield_stress = 792 MPa                      # johnson_cook_1983, quoted\n", "  melting_temperature = 1793 K ",
+       "  d3 = -2.12 ", "  range: flow stress: torsion", "  lacks: no change of phase",
+       "    johnson_cook_1985: G. R. Johnson, W. H. Cook, Fracture characteristics"});
+  expect_words(ask("describe material steel_4304").text, {"did you mean \"steel_4340\"?"});
 }
 
 TEST(DescribeCommand, DescribesTheLibrary) {
-  EXPECT_TRUE(contains(ask("describe library").text, "  tantalum                    perfectly_plastic: tantalum, "));
+  expect_words(ask("describe library").text, {"  tantalum                    perfectly_plastic: tantalum, "});
   EXPECT_EQ(ask("describe library steel_4340").text, ask("describe material steel_4340").text);
-  EXPECT_TRUE(
-      contains(ask("describe library steel_4340 --markdown").text, "| `d3` | -2.12 | johnson_cook_1985 | quoted |\n"));
-  EXPECT_TRUE(contains(ask("describe library steel_4304").text, "did you mean \"steel_4340\"?"));
+  expect_words(ask("describe library steel_4340 --markdown").text, {"| `d3` | -2.12 | johnson_cook_1985 | quoted |\n"});
+  expect_words(ask("describe library steel_4304").text, {"did you mean \"steel_4340\"?"});
   for (std::string const kind : {"library", "material"}) {
     Answer const renamed = ask("describe " + kind + " steel_adaptle_3_3");
     EXPECT_EQ(renamed.code, 2);

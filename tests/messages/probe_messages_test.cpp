@@ -74,7 +74,8 @@ TEST(ProbeMessages, AnchorRegionsSelectParticles) {
 }
 
 TEST(ProbeMessages, RimsAreInSpaceAndHolesInThePlane) {
-  EXPECT_TRUE(mentions(of_plate("kind = \"rim\"\n"), {"case.toml:11:8: probe.kind", "rim", "2D", "allowed in 3D"}));
+  EXPECT_TRUE(mentions(of_plate("kind = \"rim\"\n"),
+                       {"case.toml:11:8: probe.kind", "rim", "2D", "allowed in 3D", "another kind"}));
   EXPECT_EQ(of_column("kind = \"hole\"\n"),
             "case.toml:26:8: probe.kind is \"hole\" for a body in 3D (allowed in 2D) - choose another kind");
 }

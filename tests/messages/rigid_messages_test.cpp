@@ -39,11 +39,11 @@ TEST(RigidMessages, FreeShapesHaveAMass) {
 
 TEST(RigidMessages, FreeShapesStartWithAVelocity) {
   EXPECT_EQ(free("mass = 1\nvelocity = [\"5 m/s\", 0, 0]\nangular_velocity = [0, \"90 rad/s\", \"Omega\"]"), "");
-  EXPECT_TRUE(
-      mentions_each(free("mass = 1\nvelocity = [\"t\", \"X\", 0]\nangular_velocity = [1, 2]"),
-                    {{"case.toml:28:12: rigid.velocity[0]", "formula \"t\"", "uses t", "the constants", "start"},
-                     {"case.toml:28:12: rigid.velocity[1]", "formula \"X\"", "uses X", "t and the constants"},
-                     {"case.toml:29:20: rigid.angular_velocity", "list of 2", "list of 3"}}));
+  EXPECT_TRUE(mentions_each(
+      free("mass = 1\nvelocity = [\"t\", \"X\", 0]\nangular_velocity = [1, 2]"),
+      {{"case.toml:28:12: rigid.velocity[0]", "formula \"t\"", "uses t", "the constants", "start"},
+       {"case.toml:28:12: rigid.velocity[1]", "formula \"X\"", "uses X", "t and the constants", "moves as one"},
+       {"case.toml:29:20: rigid.angular_velocity", "list of 2", "list of 3"}}));
   EXPECT_TRUE(mentions_each(free("mass = 1\nfix = \"xq\"\nturns = false\nangular_velocity = [1, 0, 0]"),
                             {{"case.toml:28:7: rigid.fix", "xq", "letters xyz"},
                              {"case.toml:30:20: rigid.angular_velocity", "turns = false", "remove"}}));
@@ -110,7 +110,7 @@ TEST(RigidMessages, FreeShapesNeedSurfacesAndPartners) {
   EXPECT_NE(message_of(text + stone + alone).find("nothing keeps the free rigid shape"), std::string::npos)
       << "the shape would touch no body";
   EXPECT_TRUE(mentions(message_of(sample_case() + replaced(stone, "stone", "column")),
-                       {"case.toml:24:8:", "column", "taken by a body", "another name"}));
+                       {"case.toml:24:8:", "column", "taken by a body", "one name for one of them", "another name"}));
   std::string const wall = "[[rigid]]\nname = \"wall\"\n";
   EXPECT_EQ(message_of(sample_case() + stone + wall + "plane = { point = [22, 0, 0], normal = [-1, 0, 0] }\n"), "");
   EXPECT_EQ(

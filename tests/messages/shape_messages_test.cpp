@@ -4,6 +4,7 @@
 #include "piola/output/atomic_file.hpp"
 #include "piola/setup/packed_bodies.hpp"
 #include "piola/setup/packing_file.hpp"
+#include "support/key_words.hpp"
 #include "support/sample_case.hpp"
 #include "support/temporary_folder.hpp"
 #include <gtest/gtest.h>
@@ -20,11 +21,10 @@ std::string with_shape(std::string const& shape, std::string const& more = {}) {
          more;
 }
 
-/// Whether the message holds all of these.
+/// Expects each of these words in the message.
 void expect_told(std::string const& shape, std::vector<std::string> const& words, std::string const& more = {}) {
-  std::string const message = message_of(with_shape(shape, more));
-  for (std::string const& word : words)
-    EXPECT_NE(message.find(word), std::string::npos) << shape << " says: " << message;
+  SCOPED_TRACE(shape);
+  test::expect_words(message_of(with_shape(shape, more)), words);
 }
 
 TEST(ShapeMessages, GoodOnesSayNothing) {

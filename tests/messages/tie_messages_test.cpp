@@ -85,8 +85,8 @@ TEST(TieMessages, BodiesWithAContactOfTheirOwnAreHeldBySurfaces) {
       "material = { law = \"neo_hookean\", density = 1000, youngs_modulus = \"1 GPa\", poissons_ratio = 0.3 }\n"
       "formulation = { name = \"nodal\" }\n[[body]]\nname = \"upper\"";
   std::string const text = replaced(on_floor("[\"lower\", \"floor\"]"), rubber, solid);
-  expect_words(message_of(text),
-               {"case.toml:15:11: the tie \"tie_0\"", "body \"lower\"", "adaptle", "set contact.law = \"surface\""});
+  expect_words(message_of(text), {"case.toml:15:11: the tie \"tie_0\"", "body \"lower\"", "adaptle",
+                                  "contact by surfaces", "set contact.law = \"surface\""});
   EXPECT_EQ(message_of(text + "[contact]\nlaw = \"surface\"\n"), "");
 }
 
@@ -124,7 +124,7 @@ TEST(TieMessages, ATieHoldsSomething) {
                         "two spacings", "half a spacing", "touch"}));
   EXPECT_TRUE(mentions(reported(both + "where = \"X > 1\""),
                        {"case.toml:15:11:", "tie_0", "holds nothing", "lower", "upper", "condition",
-                        "no surfaces face each other", "two spacings", "change where"}));
+                        "no surfaces face each other", "two spacings", "half a spacing", "change where"}));
   EXPECT_EQ(message_of(stack(both, "\"10.4 mm\"", "\"20.4 mm\"")), "") << "a small gap is glue";
 }
 

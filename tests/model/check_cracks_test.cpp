@@ -69,7 +69,7 @@ TEST(MakeParticles, ReportsAllCracksThatCannotBeAndOpensTheOthers) {
   Problems problems;
   ParticleSet const set = make_particles(spec, problems);
   ASSERT_EQ(problems.count(), 2u);
-  EXPECT_TRUE(mentions_each(problems.lines(), {{"case.toml:9:6: crack.to", "(1.1, 0.5) m", "lower"},
+  EXPECT_TRUE(mentions_each(problems.lines(), {{"case.toml:9:6: crack.to", "(1.1, 0.5) m", "lower", "has no"},
                                                {"case.toml:16:1: ", "lower", "meets the crack from"}}));
 
   EXPECT_EQ(set.cracks.size(), 1u);

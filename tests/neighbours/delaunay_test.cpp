@@ -180,8 +180,8 @@ TEST(Delaunay, RefusesPointsWithoutCellsInWords) {
             "cells between points: 3 points of 28 at the place of another one, the first ones are numbers 3 and 27 at "
             "(0.75, 0) (points must be 1e-9 of their extent apart) - leave one of them out");
   points[9][1] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(mentions(message(points, 2),
-                       {"cells between points", "1 point without a finite position", "number 9", "finite"}));
+  EXPECT_TRUE(mentions(message(points, 2), {"cells between points", "1 point without a finite position", "number 9",
+                                            "finite", "what moved it"}));
 }
 
 TEST(Delaunay, TakesPointsThatNearlyCoincideOrLieNearlyOnALine) {

@@ -96,7 +96,7 @@ TEST(History, TellsOfRowsThatAreMissingOrWereChanged) {
   HistoryMark const mark = written(folder / "history.csv");
   std::ofstream(folder / "history.csv") << "time,energy\n0,0\n0.2,0.4\n";
   expect_words(HistoryFile(folder / "history.csv", columns, 0.2, mark).repair_note(),
-               {"history.csv: 2 rows up to t = 0.2 s", "3", "rows are missing"});
+               {"history.csv: 2 rows up to t = 0.2 s", "checkpoint counts on 3", "rows are missing"});
   std::ofstream(folder / "history.csv") << "time,energy\n0,0\n0.1,0.2\n0.2,0.5\n";
   EXPECT_NE(HistoryFile(folder / "history.csv", columns, 0.2, mark).repair_note(), "");
   std::filesystem::remove(folder / "history.csv");

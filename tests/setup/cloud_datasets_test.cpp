@@ -123,7 +123,7 @@ TEST(CloudDatasets, SaysWhatIsMissingOrWrong) {
                          put(file, "/points", X, 3);
                          put(file, "/volume", Numbers(27, 1));
                        }),
-                       {"particle 1: y", "not a number", "finite"}));
+                       {"particle 1: y", "not a number", "finite", "correct the row"}));
 }
 
 TEST(CloudDatasets, FilesThatAreCutOffOrDamagedAreRefused) {

@@ -136,13 +136,14 @@ TEST(CloudMessages, SayWhatIsWrongWithTheHeader) {
            {"x,z\n1,2\n", {"cloud.csv:1: ", "no column \"y\"", "\"x, z\"", "in 2D without z", "name"}},
            {"x,y,X\n", {"cloud.csv:1:5: ", "column \"X\"", "twice", "remove one"}},
            {"x [mm,y\n", {"cloud.csv:1:1: ", "unit", "\"x [mm\"", "such as \"x [mm]\"", "leave it out"}},
-           {"x [kg],y [mm]\n", {"cloud.csv:1:1: ", "\"kg\"", "not a unit of \"x\"", "such as mm"}},
-           {"x [mm],y [mm], volume [mm^3]\n", {"cloud.csv:1:16: ", "\"mm^3\"", "not a unit of \"volume\"", "mm^2"}},
+           {"x [kg],y [mm]\n", {"cloud.csv:1:1: ", "\"kg\"", "not a unit of \"x\"", "such as mm", "correct it"}},
+           {"x [mm],y [mm], volume [mm^3]\n",
+            {"cloud.csv:1:16: ", "\"mm^3\"", "not a unit of \"volume\"", "mm^2", "correct it"}},
            {"x [mm],y [mm],volume\n", {"cloud.csv:1: ", "\"volume\" has no unit", "a unit, or none"}},
            {"x [mm],y [mm]\n",
             {"cloud.csv:1: ", "units", "the case gives one", "leave out one"},
             {.length_unit = 1e-3}},
-           {"x,\"y\n1,2\n", {"cloud.csv:1:3: ", "quotation mark", "not closed"}},
+           {"x,\"y\n1,2\n", {"cloud.csv:1:3: ", "quotation mark", "not closed", "close it"}},
            {std::string("\xff\xfex\0,\0", 6), {"cloud.csv: ", "UTF-16", "expected UTF-8", "CSV UTF-8"}},
            {std::string("x,y\n\0", 5), {"cloud.csv: ", "no text", "NUL byte", ".hdf"}}})
     EXPECT_TRUE(mentions_each(read_text(bad.text, bad.options).problems, {bad.words})) << bad.text;
@@ -150,11 +151,12 @@ TEST(CloudMessages, SayWhatIsWrongWithTheHeader) {
 
 TEST(CloudMessages, NameLineAndColumnOfBadRows) {
   auto const problems = read_text("x,y,volume\n# good\n0,0,1\n\n1, abc,1\n1,2\n1,2,3,4\n1,1e999,1\n\"1,1,1\n").problems;
-  EXPECT_TRUE(mentions_each(problems, {{"cloud.csv:5:4: ", "\"abc\"", "not a number", "such as 0.0015"},
-                                       {"cloud.csv:6: ", "2 fields", "expected 3", "\"x, y, volume\"", "missing"},
-                                       {"cloud.csv:7: ", "4 fields", "expected 3", "\"x, y, volume\"", "decimal point"},
-                                       {"cloud.csv:8:3: ", "\"1e999\"", "at most 1.8e308, at least 5e-324"},
-                                       {"cloud.csv:9:1: ", "quotation mark", "not closed"}}));
+  EXPECT_TRUE(mentions_each(problems,
+                            {{"cloud.csv:5:4: ", "\"abc\"", "not a number", "such as 0.0015", "correct or remove"},
+                             {"cloud.csv:6: ", "2 fields", "expected 3", "\"x, y, volume\"", "missing"},
+                             {"cloud.csv:7: ", "4 fields", "expected 3", "\"x, y, volume\"", "decimal point"},
+                             {"cloud.csv:8:3: ", "\"1e999\"", "at most 1.8e308, at least 5e-324", "correct or remove"},
+                             {"cloud.csv:9:1: ", "quotation mark", "not closed", "close it"}}));
   EXPECT_TRUE(mentions_each(read_text("x;y\n1,5;2\n").problems,
                             {{"cloud.csv:2:1:", "1,5", "not a number", "0.0015", "correct or remove"}}));
   EXPECT_TRUE(mentions_each(read_text("x;y\n1;5;2\n").problems,
@@ -173,11 +175,11 @@ TEST(CloudMessages, ListAFewAndCountTheRest) {
 
 TEST(CloudMessages, SayWhatIsWrongWithNumbers) {
   auto const problems = read_text("x,y,volume,kernel_volume\n0,nan,1,1\n1,0,0,1\n-inf,1,1,1\n3e9,0,1,-2\n").problems;
-  EXPECT_TRUE(mentions_each(problems, {{"cloud.csv:2:", "y", "not a number", "finite"},
-                                       {"cloud.csv:3:", "volume", "0 m^2", "positive"},
-                                       {"cloud.csv:4:", "x", "-inf m", "finite"},
+  EXPECT_TRUE(mentions_each(problems, {{"cloud.csv:2:", "y", "not a number", "finite", "correct the row"},
+                                       {"cloud.csv:3:", "volume", "0 m^2", "positive", "correct or remove"},
+                                       {"cloud.csv:4:", "x", "-inf m", "finite", "correct the row"},
                                        {"cloud.csv:5:", "x", "3e+09 m", "at most 1e+09 m", "unit"},
-                                       {"cloud.csv:5:", "kernel volume", "-2 m^2", "positive"}}));
+                                       {"cloud.csv:5:", "kernel volume", "-2 m^2", "positive", "correct or remove"}}));
 }
 
 TEST(CloudMessages, SayWhatIsWrongWithVolumesAndBodies) {
@@ -185,7 +187,7 @@ TEST(CloudMessages, SayWhatIsWrongWithVolumesAndBodies) {
   EXPECT_TRUE(
       mentions_each(read_text(points).problems, {{"cloud.csv:", "no column \"volume\"", "add one", "total volume"}}));
   EXPECT_TRUE(mentions_each(read_text(points, {.total_volume = 0}).problems,
-                            {{"cloud.csv:", "total volume", "0", "positive"}}));
+                            {{"cloud.csv:", "total volume", "0", "positive", "correct it"}}));
   EXPECT_TRUE(mentions_each(read_text("x,y,volume\n0,0,1\n1,0,1\n0,1,1\n", {.total_volume = 3}).problems,
                             {{"cloud.csv:", "volumes", "total volume", "leave out one"}}));
   EXPECT_TRUE(mentions_each(read_text(points, {.total_volume = 3, .body = "ball"}).problems,
@@ -200,9 +202,9 @@ TEST(CloudMessages, SayWhichPointsAreTooClose) {
       read_text(square + "1,1\n", {.total_volume = 25}).problems,
       Words{"cloud.csv: 1 point is where another one is, first line 8 and line 27 - remove the rows that are there "
             "twice"});
-  EXPECT_TRUE(
-      mentions_each(read_text(square + "1.2,1\n", {.total_volume = 25}).problems,
-                    {{"cloud.csv:", "2 points", "0.3 of the median distance 1 m", "line 8 and line 27", "200 mm"}}));
+  EXPECT_TRUE(mentions_each(read_text(square + "1.2,1\n", {.total_volume = 25}).problems,
+                            {{"cloud.csv:", "2 points", "0.3 of the median distance 1 m", "line 8 and line 27",
+                              "200 mm", "spread or remove"}}));
   EXPECT_TRUE(mentions_each(read_text("x,y\n0,0\n1e-200,0\n0,1e-200\n", {.total_volume = 1}).problems,
                             {{"cloud.csv:", "median distance", "0 m", "at least 1e-12 m", "unit"}}));
 }

@@ -110,7 +110,8 @@ TEST(Crack, EndsMayBeOffByLessThanAMillionthOfTheSpacing) {
 }
 
 TEST(Crack, WhatCannotBeACrackSaysWhy) {
-  EXPECT_TRUE(mentions(problem({1, 0.5, 0}, {1, 0.5, 0}), {"plate", "no length", "two different ends"}));
+  EXPECT_TRUE(
+      mentions(problem({1, 0.5, 0}, {1, 0.5, 0}), {"plate", "no length", "two different ends", "move one end"}));
   EXPECT_TRUE(mentions(problem({-0.5, 0.5, 0}, {1, 0.5, 0}),
                        {"crack.from", "(-0.5, 0.5) m", "plate", "no particle", "1e-6 of the spacing", "(0, 0.5) m"}));
   EXPECT_EQ(
@@ -119,7 +120,7 @@ TEST(Crack, WhatCannotBeACrackSaysWhy) {
       "spacing) - the nearest is at (1, 0.5) m");
   EXPECT_TRUE(mentions(problem({0, 0.5, 0}, {0.25, 0.5, 0}), {"plate", "2 particles", "3 or more", "longer"}));
   EXPECT_TRUE(mentions(problem({0, 0, 0}, {1, 0.5, 0}), {"plate", "no particle between (0, 0) m and (0.5, 0.25) m",
-                                                         "row", "corner to corner", "jitter"}));
+                                                         "row", "corner to corner", "remove the jitter"}));
   EXPECT_TRUE(mentions(problem({0, 1, 0}, {2, 1, 0}), {"plate", "boundary", "inside", "move"}));
   ShapeSpec shaken = plate();
   shaken.jitter = 0.1;

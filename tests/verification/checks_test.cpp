@@ -81,7 +81,7 @@ TEST(ReadChecks, TolerancesThatCannotFailAreRefused) {
   };
   EXPECT_EQ(with("0"), "");
   EXPECT_EQ(with("\"2.5 %\""), "");
-  EXPECT_TRUE(mentions(with("inf"), {"check:", "'tolerance'", "inf", "0 or more, finite"}));
+  EXPECT_TRUE(mentions(with("inf"), {"check:", "'tolerance'", "inf", "0 or more, finite", "what the source grants"}));
   for (char const* const tolerance : {"\"inf %\"", "+inf"})
     EXPECT_NE(with(tolerance).find("no check could fail"), std::string::npos) << tolerance;
   for (char const* const tolerance : {"nan", "-0.1", "-inf", "\"-1 %\"", "\"nan %\""})
@@ -96,7 +96,8 @@ TEST(ReadChecks, ReferencesAreNumbersOrQuantities) {
   };
   EXPECT_EQ(with("\"100 ms\""), "");
   for (char const* const reference : {"inf", "nan", "\"soon\"", "\"5 bananas\"", "true", "[1]"})
-    EXPECT_TRUE(mentions(with(reference), {"check:", "'reference'", "wrong kind", "number with unit"})) << reference;
+    EXPECT_TRUE(mentions(with(reference), {"check:", "'reference'", "wrong kind", "number with unit", "correct it"}))
+        << reference;
 }
 
 TEST(ReadChecks, OverridesAreKeysWithValues) {

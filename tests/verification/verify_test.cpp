@@ -287,16 +287,17 @@ TEST(ReadChecks, ComparisonsMustBeWhole) {
   EXPECT_TRUE(mentions(message("relative_to = \"5\"\nas = \"ratio\"\nratio = 2\n"),
                        {":14:9: check:", "'ratio'", "only for as = \"order\"", "remove"}));
   EXPECT_TRUE(mentions(message("relative_to = \"5\"\nas = \"order\"\nratio = 1\n"),
-                       {":14:9: check:", "'ratio'", "wrong kind", "number above 1"}));
+                       {":14:9: check:", "'ratio'", "wrong kind", "number above 1", "correct it"}));
   EXPECT_TRUE(mentions(message("relative_to = \"9\"\nas = \"ratio\"\n"),
                        {":5:1: check:", "'relative_to'", "variant itself", "[[variant]]"}));
   EXPECT_TRUE(
       mentions(message("relative_to = \"7\"\nas = \"ratio\"\n"), {":5:1: check:", "no variant '7'", "[[variant]]"}));
-  EXPECT_TRUE(mentions(message("relative_to = \"5\"\nas = \"sum\"\n"),
-                       {":13:6: check:", "'as'", "wrong kind", "\"order\", \"ratio\" or \"field_error\""}));
+  EXPECT_TRUE(
+      mentions(message("relative_to = \"5\"\nas = \"sum\"\n"),
+               {":13:6: check:", "'as'", "wrong kind", "\"order\", \"ratio\" or \"field_error\"", "correct it"}));
   EXPECT_TRUE(mentions(message("expected = \"falls short\"\n"), {":12:12: check:", "fall short", "'note'", "add it"}));
   EXPECT_TRUE(mentions(message("expected = \"passes\"\nnote = \"n\"\n"),
-                       {":12:12: check:", "'expected'", "wrong kind", "\"falls short\""}));
+                       {":12:12: check:", "'expected'", "wrong kind", "\"falls short\"", "correct it"}));
 }
 
 TEST(ReadChecks, ReportsAllThatIsWrong) {
@@ -345,7 +346,7 @@ TEST(ReadChecks, BoundsMayStandOnBothSides) {
   std::string const rest = "quantity = \"q\"\nkind = \"between\"\nevidence = \"paper\"\n";
   EXPECT_EQ(complaints(rest + "reference = [1, \"2 m\"]\n"), "");
   EXPECT_TRUE(mentions(complaints(rest + "reference = 1\n"),
-                       {":11:13: check:", "'reference'", "wrong kind", "[lowest, highest]"}));
+                       {":11:13: check:", "'reference'", "wrong kind", "[lowest, highest]", "correct it"}));
   EXPECT_TRUE(mentions(complaints(rest + "reference = [1, 2]\ntolerance = 1\n"),
                        {":12:13: check:", "'tolerance'", "kind = \"between\"", "remove"}));
 }
@@ -356,7 +357,8 @@ TEST(ReadChecks, FieldsAreComparedAtATime) {
   EXPECT_EQ(complaints(field + "time = \"10 ms\"\nwhere = \"Y > 1\"\n"), "");
   EXPECT_EQ(complaints(rest + "as = \"field_error\"\nfield = \"LeastJacobian\"\ntime = 1\n"), "");
   EXPECT_EQ(complaints(field), ":5:1: check needs 'time' - add it");
-  EXPECT_TRUE(mentions(complaints(field + "time = \"10 m\"\n"), {":14:8: check:", "'time'", "wrong kind", "0.1 s"}));
+  EXPECT_TRUE(mentions(complaints(field + "time = \"10 m\"\n"),
+                       {":14:8: check:", "'time'", "wrong kind", "0.1 s", "correct it"}));
   EXPECT_NE(complaints(field + "time = 1\nwhere = \"Y >\"\n").find(":15:9: check: 'where'"), std::string::npos);
   EXPECT_TRUE(mentions(complaints(field + "time = 1\nquantity = \"q\"\n"),
                        {":15:12: check:", "'quantity'", "as = \"field_error\"", "'field'", "remove"}));

@@ -251,10 +251,10 @@ void read_library_file(std::string_view text, std::string const& name, MaterialL
     problems.add({name, 0, 0}, "the library is empty (allowed: materials and sources) - add [[material]]");
 }
 
-MaterialLibrary read_case_library(Section const& top, std::vector<CaseFile>& files) {
-  MaterialLibrary library = material_library();
+CaseLibrary read_case_library(Section const& top, std::vector<CaseFile>& files) {
   auto const value = top.find("library");
-  if (!value) return library;
+  if (!value) return std::nullopt;
+  MaterialLibrary library = material_library();
   std::size_t const before = top.problems().count();
   auto const items = read_list(*value, 1, 1000, top.problems());
   for (std::size_t k = 0; items && k < items->size(); ++k) {

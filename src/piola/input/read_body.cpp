@@ -142,7 +142,7 @@ std::vector<Definition> read_definitions(Value const& value, Names const& names,
   return known.definitions;
 }
 
-BodySpec read_body(Section const& section, Names const& common, MaterialLibrary const& library, BodyNames& names) {
+BodySpec read_body(Section const& section, Names const& common, CaseLibrary const& library, BodyNames& names) {
   BodySpec body;
   section.read("name", body.name);
   names.names = common;

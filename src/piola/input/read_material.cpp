@@ -129,9 +129,9 @@ bool is_renamed(Value const& name, Problems& problems) {
 }
 
 /// The law of the key `law`, or of the material of the library that the key `name` names.
-std::optional<std::string> law_name(Section const& section, MaterialLibrary const& library,
-                                    LibraryMaterial const*& base) {
+std::optional<std::string> law_name(Section const& section, CaseLibrary const& own, LibraryMaterial const*& base) {
   if (auto const name = section.find("name")) {
+    MaterialLibrary const& library = own ? *own : material_library();
     section.refuse("law", "is that of the material of the library when \"name\" is given");
     base = library.find(name->node.text);
     if (base == nullptr && is_renamed(*name, section.problems())) return std::nullopt;
@@ -171,7 +171,7 @@ MaterialParameters read_law_values(Section const& section, LawInfo const& law, s
   return MaterialReader(section, law, nullptr, std::move(keys)).read();
 }
 
-void read_material(Section const& section, MaterialLibrary const& library, BodySpec& body) {
+void read_material(Section const& section, CaseLibrary const& library, BodySpec& body) {
   LibraryMaterial const* base = nullptr;
   auto const name = law_name(section, library, base);
   if (!name) return;

@@ -17,7 +17,7 @@ std::optional<std::size_t> shape_region(std::string const& condition, std::vecto
 }
 
 PartSpec read_part(Section const& section, BodyNames const& body, std::vector<RegionSpec> const& regions,
-                   MaterialLibrary const& library) {
+                   CaseLibrary const& library) {
   PartSpec part;
   section.read("name", part.name);
   if (auto where = section.formula("where", body.names)) {
@@ -49,7 +49,7 @@ PartSpec read_part(Section const& section, BodyNames const& body, std::vector<Re
 }  // namespace
 
 std::vector<PartSpec> read_parts(Section const& section, BodyNames const& body, std::vector<RegionSpec> const& regions,
-                                 MaterialLibrary const& library) {
+                                 CaseLibrary const& library) {
   std::vector<PartSpec> parts;
   auto const value = section.find("part");
   if (!value) return parts;

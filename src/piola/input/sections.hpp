@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/input/case_spec.hpp"
+#include "piola/input/material_library.hpp"
 #include "piola/input/section.hpp"
-#include "piola/materials/library.hpp"
 #include <initializer_list>
 #include <map>
 #include <span>
@@ -57,11 +57,11 @@ ShapeSpec read_shape(Section const& section, Names const& names);
 /// `names`: constants.
 RegionSpec read_region(Section const& section, Names const& names);
 /// `common`: constants and regions. Sets `names` to those of the body.
-BodySpec read_body(Section const& section, Names const& common, MaterialLibrary const& library, BodyNames& names);
+BodySpec read_body(Section const& section, Names const& common, CaseLibrary const& library, BodyNames& names);
 /// The key `part` of a body. `regions`: for parts that are a region's shape.
 std::vector<PartSpec> read_parts(Section const& section, BodyNames const& body, std::vector<RegionSpec> const& regions,
-                                 MaterialLibrary const& library);
-void read_material(Section const& section, MaterialLibrary const& library, BodySpec& body);
+                                 CaseLibrary const& library);
+void read_material(Section const& section, CaseLibrary const& library, BodySpec& body);
 /// Words and numbers of a material of a library file, without their sources. `keys`: its other ones.
 MaterialParameters read_law_values(Section const& section, LawInfo const& law, std::vector<std::string> keys);
 std::vector<std::string> law_names();

@@ -157,7 +157,7 @@ Names read_regions(Section const& top, std::map<std::string, double> const& cons
 
 void read_bodies(Section const& top, Names const& common, CaseSpec& spec, std::vector<BodyNames>& names,
                  ReadLimits const& limits) {
-  MaterialLibrary const library = read_case_library(top, spec.library_files);
+  CaseLibrary const library = read_case_library(top, spec.library_files);
   std::size_t const before = top.problems().count();
   std::vector<Section> const sections = tables_of(top, "body");
   for (Section const& section : sections) {

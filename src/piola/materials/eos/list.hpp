@@ -72,11 +72,12 @@ inline constexpr auto eos_parameters = [] {
   return all;
 }();
 
-/// Places of the parameters of an equation of state among `eos_parameters`.
+/// Places of the parameters of an equation of state among `eos_parameters`. Loops over parameters compare by != because
+/// nvcc warns of k < 0 for equations of state without any.
 template <class Eos>
 inline constexpr auto eos_places = [] {
   std::array<std::size_t, Eos::parameters.size()> places{};
-  for (std::size_t k = 0; k < places.size(); ++k)
+  for (std::size_t k = 0; k != places.size(); ++k)
     while (eos_parameters[places[k]].name != Eos::parameters[k].name) ++places[k];
   return places;
 }();
@@ -86,7 +87,7 @@ inline constexpr auto eos_places = [] {
 template <class Eos>
 Eos make_eos(double density, double bulk_modulus, double const* values) {
   std::array<double, Eos::parameters.size()> own{};
-  for (std::size_t k = 0; k < own.size(); ++k) own[k] = values[eos_places<Eos>[k]];
+  for (std::size_t k = 0; k != own.size(); ++k) own[k] = values[eos_places<Eos>[k]];
   return Eos(density, bulk_modulus, own.data());
 }
 
