@@ -433,7 +433,7 @@ TEST(RunCase, KeepsTheLastStateOfAFailedRunAndExplains) {
   for (char const* part :
        {"stopped at step 40, t = ",
         "particle 3 (body 'plate', X = (3, 0, 0) m, x = (0.5, 0.25, 0) m) is inverted, det F = -0.02, neighbours = 27",
-        "limited by the wave speed", "docs/user/when-it-stops.md"}) {
+        "limited by the formulation", "docs/user/when-it-stops.md"}) {
     EXPECT_NE(outcome.failure.find(part), std::string::npos) << part << "\n" << outcome.failure;
   }
   EXPECT_EQ(nlohmann::json::parse(text_of(folder / "r/summary.json"))["status"], "failed");

@@ -162,10 +162,10 @@ std::size_t HaloPlan::bytes() const {
 
 void exchange(HaloPlan& plan, std::span<FieldRef const> fields) { plan.exchange(fields); }
 
-void exchange_once(HaloPlan const& plan, FieldRef const& field, int components) {
+void exchange_once(HaloPlan const& plan, FieldRef const& field, int components, int reach) {
   PIOLA_EXPECTS(field.data != nullptr && components > 0);
   HaloPlan once = plan.without_fields();
-  once.add(field, 0, components);
+  once.add(field, 0, components, reach);
   once.exchange(field);
 }
 

@@ -73,7 +73,8 @@ class HaloPlan {
 
 /// Calls plan.exchange(fields); for code that is compiled once per instruction set.
 void exchange(HaloPlan& plan, std::span<FieldRef const> fields);
-/// Updates `components` components of a field that need not be add()ed, for the ghosts of level 0. Called by all ranks.
-void exchange_once(HaloPlan const& plan, FieldRef const& field, int components);
+/// Updates the components [0, components) of a field that need not be add()ed, for the ghosts that neighbours at level
+/// `reach` read. Called by all ranks.
+void exchange_once(HaloPlan const& plan, FieldRef const& field, int components, int reach = 0);
 
 }  // namespace piola

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/exec/device_loops.hpp"
 #include "piola/exec/reproducible_sum.hpp"
 #include "piola/exec/threads.hpp"
 #include "piola/math/lanes.hpp"
@@ -11,6 +12,12 @@ template <class F>
 void parallel_for(Index n, F const& f) {
 #pragma omp parallel for schedule(static) num_threads(team_size(n))
   for (Index k = 0; k < n; ++k) f(k);
+}
+
+/// As above for i = r.first ... r.last - 1.
+template <class F>
+void parallel_for(Range r, F const& f) {
+  parallel_for(r.last - r.first, [&](Index k) { f(r.first + k); });
 }
 
 /// Parallel loop over parts k = 0 ... n - 1, e.g. rows of a lattice, with the team for `particles` particles. f must be

@@ -4,7 +4,6 @@
 #include "piola/base/text.hpp"
 #include "piola/output/checkpoint.hpp"
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace piola {
@@ -23,12 +22,11 @@ std::string values_text(Failure const& f) {
   return text;
 }
 
-std::string limit_text(TimeState const& m, double cfl) {
+std::string limit_text(TimeState const& m, std::string const& limit) {
   if (m.step == 0) return "no step was done: the initial state itself is not admissible";
-  std::string const by = m.bounded_by_max_step ? "run.max_step" : "the wave speed of the stiffest, finest particle";
-  std::string const factor = std::isfinite(cfl) ? fmt::format(" with run.cfl = {}", cfl) : "";
-  return fmt::format("dt = {} at the last step (the first was {}), limited by {}{}", quantity_text(m.dt, "s"),
-                     quantity_text(m.first_dt, "s"), by, factor);
+  std::string const by = m.bounded_by_max_step ? "run.max_step" : limit;
+  return fmt::format("dt = {} at the last step (the first was {}){}{}", quantity_text(m.dt, "s"),
+                     quantity_text(m.first_dt, "s"), by.empty() ? "" : ", limited by ", by);
 }
 
 std::string usual_causes(Failure const& f, TimeState const& m) {
@@ -67,15 +65,15 @@ std::string point_text(std::array<double, 3> const& p) {
   return fmt::format("({}, {}, {}) m", number_text(p[0], 4), number_text(p[1], 4), number_text(p[2], 4));
 }
 
-std::string failure_text(Failure const& failure, std::string const& causes, TimeState const& moment, double cfl,
-                         std::filesystem::path const& results) {
+std::string failure_text(Failure const& failure, std::string const& causes, TimeState const& moment,
+                         std::string const& limit, std::filesystem::path const& results) {
   PIOLA_EXPECTS(moment.step >= 0);
   std::string const values = values_text(failure);
   std::string const likely = causes.empty() ? usual_causes(failure, moment) : causes;
   std::string const where = results.empty() ? "" : places_text(results);
   return fmt::format("stopped at step {}, t = {:.6g} s: {}{}{}\n  {}\n  {}\n  {}see docs/user/when-it-stops.md",
                      moment.step, moment.time, subject(failure), values.empty() ? "" : ", ", values,
-                     limit_text(moment, cfl), likely, where);
+                     limit_text(moment, limit), likely, where);
 }
 
 }  // namespace piola

@@ -13,9 +13,10 @@ namespace piola {
 std::string point_text(std::array<double, 3> const& point);
 
 /// Error message of a physical failure: particle, position, step, values, what limits the step, likely causes, and the
-/// location of the last state. `causes`: the likely ones if known, else general ones.
-std::string failure_text(Failure const& failure, std::string const& causes, TimeState const& moment, double cfl,
-                         std::filesystem::path const& results);
+/// location of the last state. `causes`: the likely ones if known, else general ones. `limit`: StepEstimate::limit, may
+/// be empty.
+std::string failure_text(Failure const& failure, std::string const& causes, TimeState const& moment,
+                         std::string const& limit, std::filesystem::path const& results);
 
 /// Adds the change of the energies over the history to the values of a failure, unless it has energies of its own.
 void add_energies(Failure& failure, HistoryTable const& history);

@@ -23,26 +23,24 @@ std::vector<std::vector<double>> ProbeSet::evaluate(Formulation const& formulati
 
 void ProbeSet::evaluate_local(Formulation const& formulation, double time) { evaluate_additive(formulation, time); }
 
-/// Recreates probes that were restricted to the local particles of an earlier partition.
+/// Restricts probes to the local particles. Recreates those that were restricted to an earlier partition.
 void ProbeSet::distribute(std::optional<std::vector<std::int64_t>> const& local) {
   for (std::size_t k = 0; k < probes_.size(); ++k) {
     Probe& probe = probes_[k];
     if (!probe.is_reducible()) continue;
-    if (distributed_at_) {
+    if (distributed_to_) {
       double const state = probe.state();
       probe = Probe(specs_[k], particles_);
       probe.restore(state);
     }
     probe.share(local);
   }
+  distributed_to_ = local;
 }
 
 std::vector<std::vector<double>> ProbeSet::evaluate_additive(Formulation const& formulation, double time) {
-  auto const statistics = formulation.statistics().repartition;
-  std::size_t const partitions = statistics ? statistics->imbalance.size() : 0;
-  if (distributed_at_ != partitions) distribute(formulation.observables().local_particles());
-  distributed_at_ = partitions;
   FieldCache own(formulation, particles_, FieldCache::Of::local);
+  if (own.local_particles() != distributed_to_) distribute(own.local_particles());
   std::vector<std::vector<double>> values;
   for (Probe& probe : probes_)
     values.push_back(probe.is_reducible() ? probe.evaluate(own, time) : std::vector<double>());

@@ -32,7 +32,7 @@ class ProbeSet {
   ParticleSet const& particles_;
   std::vector<ProbeSpec> specs_;
   std::vector<Probe> probes_;
-  std::optional<std::size_t> distributed_at_;  ///< number of repartitions when the probes were distributed
+  std::optional<std::vector<std::int64_t>> distributed_to_;  ///< local particles to which the probes are restricted
 };
 
 }  // namespace piola

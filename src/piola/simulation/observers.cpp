@@ -229,14 +229,17 @@ ProgressObserver::ProgressObserver(Listener& listener, double end, std::int64_t 
 void ProgressObserver::observe(Formulation const& formulation, TimeState const& moment) {
   constexpr std::chrono::milliseconds pause(200);
   auto const now = std::chrono::steady_clock::now();
-  if (!first_) first_ = moment;
+  if (!first_) {
+    first_ = moment;
+    stages_per_step_ = formulation.statistics().stages_per_step;
+  }
   if (now - last_ < pause && moment.time < end_) return;
   last_ = now;
   Progress p{.moment = moment, .end = end_};
   auto const& table = history_.table();
   if (auto const column = table.find("total_energy"); column && !table.rows.empty())
     p.total_energy = table.rows.back()[*column];
-  double const stages = static_cast<double>(moment.step) * formulation.statistics().stages_per_step * particles_;
+  double const stages = static_cast<double>(moment.step) * stages_per_step_ * particles_;
   if (moment.stepping_seconds > 0) p.stages_per_second = stages / moment.stepping_seconds;
   double const advanced = moment.time - first_->time;
   if (advanced > 0) p.seconds_left = (end_ - moment.time) * (moment.wall_seconds - first_->wall_seconds) / advanced;

@@ -132,6 +132,7 @@ class ProgressObserver : public Observer {
   HistoryObserver const& history_;
   std::chrono::steady_clock::time_point last_{};
   std::optional<TimeState> first_;
+  int stages_per_step_ = 1;  ///< read at the first observation, because statistics() is expensive
 };
 
 }  // namespace piola

@@ -312,7 +312,9 @@ CaseOutcome CaseRun::finish() {
     add_energies(*p.last.failure, history());
     blame_formula(s, p.moment, p.last);
   }
-  if (p.last.failure) outcome.failure = failure_text(*p.last.failure, p.last.causes, p.moment, s.spec.run.cfl, folder);
+  if (p.last.failure)
+    outcome.failure =
+        failure_text(*p.last.failure, p.last.causes, p.moment, s.formulation->step_estimate().limit, folder);
   if (folder.empty()) return outcome;
   std::string const missing = missing_results(p.options, p.observers);
   if (!missing.empty()) outcome.summary.warnings.push_back(missing);

@@ -28,8 +28,9 @@ namespace piola {
 /// One or more bodies of one formulation that do not touch each other, distributed over ranks by slots: what does not
 /// depend on the scheme. Derived solvers make the bodies, take the steps, and add their own state to checkpoints.
 ///
-/// A Body owns its fields and visits the evolved ones: each_evolved(). Its namespace has add_diagnostics(), finish(),
-/// sample_on_root() and sample_local_slots(). A Monitor measures the step limit of one body.
+/// A Body owns its fields and visits the evolved ones: each_evolved(). Where contact or ties act on it, all ranks know
+/// the masses of all particles: replicated_mass(). Its namespace has add_diagnostics(), finish(), sample_on_root() and
+/// sample_local_slots(). A Monitor measures the step limit of one body.
 template <class Body, class Monitor>
 class BodiesSolver : public Formulation, public Observables, public CoupledParticles {
  public:
@@ -68,6 +69,11 @@ class BodiesSolver : public Formulation, public Observables, public CoupledParti
   /// Collective.
   void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                    std::span<std::array<double, 3>> v) const final;
+  void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const final {
+    PIOLA_EXPECTS(m.size() == ids.size());
+    slots_.visit(ids,
+                 [&](std::size_t k, std::size_t body, Index slot) { m[k] = bodies_[body]->replicated_mass(slot); });
+  }
   /// Changes of particles of other ranks have no effect.
   void add_velocities(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override;
 

@@ -165,6 +165,7 @@ StepEstimate CoupledFormulations::step_estimate() const {
   }
   rule.first = std::min(first, rule.settled);
   rule.stable = contact_ ? contact_->settled(stable) : stable;
+  if (contact_ && contact_->limit(stable) < rule.stable) rule.limit += ", at present also by contact";
   return rule;
 }
 

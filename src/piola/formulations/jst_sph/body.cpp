@@ -62,8 +62,7 @@ JstBody::JstBody(Assembly const& assembly, ParticleSet const& set, std::size_t b
   make_pairs(backend);
   distribute(backend.lanes);
   set_constants(assembly.materials[body]);
-  groups_ = std::make_unique<UniqueLaneGroups>(state_, slots(), backend.lanes,
-                                               [this](Index i) { return i < particles() ? volume(i) : 0; });
+  if (state_.regular) group_lanes(backend.lanes);
   allocate();
   fill(assembly, backend);
   backend.update_wave_speed(state_);
@@ -96,6 +95,14 @@ void JstBody::make_pairs(Backend const& backend) {
     state_.stencil = pairs_->stencil();
   else
     state_.list = pairs_->list();
+}
+
+/// Groups lanes with equal neighbours and equal volumes, which have equal reference data.
+void JstBody::group_lanes(int lanes) {
+  groups_.emplace(state_.slots, slots(), lanes, [&](Index first, std::vector<double>& key) {
+    key.push_back(static_cast<double>(state_.stencil.pattern_of[first / lanes]));
+    for (Index i = first; i < first + lanes; ++i) key.push_back(i < particles() ? volume(i) : 0);
+  });
 }
 
 void JstBody::set_constants(MaterialParameters const& material) {
@@ -153,9 +160,9 @@ void JstBody::allocate() {
     for (FieldRef const& f : state_.filter_source) allocate(fields_[f], n + images_.count());
   }
   fields_.each_without_memory([&](Field& f) {
-    bool const grouped = state_.regular && f.role() == Role::reference;
+    bool const grouped = groups_ && f.role() == Role::reference;
     allocate(f, grouped ? groups_->stored_slots() : n);
-    if (grouped) f.share(groups_->stored());
+    if (grouped) f.share(groups_->stored.data());
   });
   fields_.bind();
   if (!state_.has.mirrored) state_.weight = state_.V;
@@ -166,7 +173,7 @@ void JstBody::allocate() {
 void JstBody::fill(Assembly const& assembly, Backend const& backend) {
   FieldSetUp set_up(*this, backend);
   set_up.fill_records(records_, *pairs_);
-  set_up.fill_reference(*groups_, *pairs_);
+  set_up.fill_reference(groups_ ? &*groups_ : nullptr, *pairs_);
   if (options_.filter) set_up.fill_filter(*pairs_);
   pairs_->keep_tables();
   set_up.fill_initial(assembly);
@@ -232,8 +239,9 @@ double JstBody::J(Index slot) const {
 }
 
 std::size_t JstBody::bytes() const {
-  return order_.id.size() * sizeof(order_.id[0]) + partial_.size() * sizeof(double) + groups_->bytes() +
-         pairs_->bytes() + boundary_.bytes() + records_.bytes() + fields_.bytes();
+  return order_.id.size() * sizeof(order_.id[0]) + partial_.size() * sizeof(double) +
+         (groups_ ? groups_->stored.size() * sizeof(std::int32_t) : 0) + pairs_->bytes() + boundary_.bytes() +
+         records_.bytes() + fields_.bytes();
 }
 
 }  // namespace piola::jst_sph

@@ -4,15 +4,16 @@
 #include "piola/formulations/assembly.hpp"
 #include "piola/formulations/common/body_halo.hpp"
 #include "piola/formulations/common/mirror_images.hpp"
+#include "piola/formulations/common/unique_lane_groups.hpp"
 #include "piola/formulations/formulation.hpp"
 #include "piola/formulations/jst_sph/boundary_conditions.hpp"
 #include "piola/formulations/jst_sph/neighbour_records.hpp"
 #include "piola/formulations/jst_sph/options.hpp"
 #include "piola/formulations/jst_sph/state.hpp"
-#include "piola/formulations/jst_sph/unique_lane_groups.hpp"
 #include "piola/math/tensor.hpp"
 #include "piola/neighbours/reference_pairs.hpp"
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace piola::jst_sph {
@@ -70,9 +71,10 @@ class JstBody {
   Mat<3> F(Index slot) const;
   Mat<3> H(Index slot) const;  ///< the evolved H if there is one, else cof F
   double J(Index slot) const;  ///< the evolved J if there is one, else det F
-  /// Tributary volume in the body itself, and in the body continued by mirror planes.
+  double replicated_mass(Index slot) const { return volume(slot) * state_.constants.rho0; }  ///< of any particle [kg]
+  /// Tributary volume in the body itself.
   double volume(Index slot) const { return set_->volume[static_cast<std::size_t>(id(slot))]; }
-
+  /// Tributary volume in the body continued by mirror planes.
   double mirrored_volume(Index slot) const { return volume(slot) * images_.multiplicity(slot); }
 
   static double value(FieldRef const& f, Index slot, int c = 0) { return value_at(f, slot, c); }
@@ -81,6 +83,7 @@ class JstBody {
  private:
   std::optional<Cloud> cloud() const;
   void make_pairs(Backend const& backend);
+  void group_lanes(int lanes);
   void distribute(int lanes);
   std::vector<Index> slots_of_neighbours(int lanes, bool far) const;
   void set_constants(MaterialParameters const& material);
@@ -96,7 +99,7 @@ class JstBody {
   FieldList fields_;
   BodyState state_;
   NeighbourRecords records_;
-  std::unique_ptr<UniqueLaneGroups> groups_;
+  std::optional<UniqueLaneGroups> groups_;  ///< of reference data, if the pair tables are stencils
   Boundary boundary_;
   std::vector<double> partial_;
   DeferredGlobalSum external_work_;

@@ -7,24 +7,15 @@
 #include <vector>
 
 namespace piola::jst_sph {
+namespace {
 
-template <class F>
-void FieldSetUp::each_local(F const& f) const {
-  Range const own = body_.own();
-  exec_host::parallel_for(own.last - own.first, [&](Index k) { f(own.first + k); });
-}
+constexpr int far = 1;  ///< cutoff level of the halo whose ghosts Laplacians and the filter read
 
-void FieldSetUp::update_ghosts_once(FieldRef const& field, int first, int count) const {
-  HaloPlan once = s_.halo->without_fields();
-  FieldRef part = field;
-  part.data += first * field.component_stride;
-  once.add(part, 0, count, 1);
-  once.exchange(part);
-}
+}  // namespace
 
 void FieldSetUp::fill_records(NeighbourRecords& records, ReferencePairs const& pairs) const {
   if (!s_.regular) {
-    each_local([&](Index i) { records.set_position(i, body_.X(i)); });
+    exec_host::parallel_for(body_.own(), [&](Index i) { records.set_position(i, body_.X(i)); });
     if (s_.halo != nullptr)
       for (Index const i : s_.halo->received()) records.set_position(i, body_.X(i));
     auto const& images = body_.images().particles().X;
@@ -35,18 +26,20 @@ void FieldSetUp::fill_records(NeighbourRecords& records, ReferencePairs const& p
   if (count == 0) return;
   auto const& corrections = pairs.corrections();
   int const D = s_.dimension, at = first;
-  each_local([&](Index i) {
+  exec_host::parallel_for(body_.own(), [&](Index i) {
     auto const slot = corrections.at(i);
     for (int c = 0; c < D; ++c) value_at(s_.second, i, at + c) = corrections.alpha[slot][static_cast<std::size_t>(c)];
     value_at(s_.second, i, at + D) = corrections.beta[slot];
   });
-  if (s_.halo != nullptr) update_ghosts_once(s_.second, first, count);
+  if (s_.halo == nullptr) return;
+  FieldRef constants = s_.second;
+  constants.data += first * constants.component_stride;
+  exchange_once(*s_.halo, constants, count, far);
 }
 
-void FieldSetUp::fill_reference(UniqueLaneGroups const& groups, ReferencePairs const& pairs) const {
+void FieldSetUp::fill_reference(UniqueLaneGroups const* groups, ReferencePairs const& pairs) const {
   int const D = s_.dimension;
-  exec_host::parallel_for(s_.slots.last - s_.slots.first, [&](Index k) {
-    Index const i = s_.slots.first + k;
+  exec_host::parallel_for(s_.slots, [&](Index i) {
     for (int c = 0; c < D; ++c) {
       value_at(s_.F, i, c * D + c) = 1;
       if (!s_.has.verlet) value_at(s_.F_star, i, c * D + c) = 1;
@@ -66,23 +59,21 @@ void FieldSetUp::fill_reference(UniqueLaneGroups const& groups, ReferencePairs c
     value_at(s_.beta, to) = corrections.beta[slot];
     value_at(s_.diagonal, to) = corrections.diagonal[slot];
   };
-  if (s_.regular)
-    groups.each([&](Index to, Index i) {
-      if (i < body_.particles()) fill(to, i);
-    });
+  if (groups != nullptr)
+    groups->each(body_.particles(), fill);
   else
-    each_local([&](Index i) { fill(i, i); });
-  if (s_.has.mirrored) each_local([&](Index i) { value_at(s_.weight, i) = body_.volume(i); });
+    exec_host::parallel_for(body_.own(), [&](Index i) { fill(i, i); });
+  if (s_.has.mirrored) exec_host::parallel_for(body_.own(), [&](Index i) { value_at(s_.weight, i) = body_.volume(i); });
 }
 
 void FieldSetUp::fill_filter(ReferencePairs const& pairs) const {
   std::vector<double> volumes(static_cast<std::size_t>(body_.slots()));
   for (Index i = 0; i < body_.particles(); ++i) volumes[static_cast<std::size_t>(i)] = body_.mirrored_volume(i);
   ReferencePairs::FilterShare const communication{
-      body_.own(), [&](std::vector<double>& values) { update_ghosts_once({.data = values.data()}, 0, 1); },
+      body_.own(), [&](std::vector<double>& values) { exchange_once(*s_.halo, {.data = values.data()}, 1, far); },
       comm::allreduce_max};
   auto const filter = pairs.make_filter(volumes, s_.halo != nullptr ? &communication : nullptr);
-  each_local([&](Index i) {
+  exec_host::parallel_for(body_.own(), [&](Index i) {
     value_at(s_.filter_scale, i) = filter.scale[static_cast<std::size_t>(i)];
     value_at(s_.filter_sum, i) = filter.sum[static_cast<std::size_t>(i)];
   });
@@ -92,7 +83,7 @@ void FieldSetUp::fill_initial(Assembly const& assembly) {
   int const D = s_.dimension;
   auto const& moved = assembly.initial_displacement;
   auto const& deformed = assembly.initial_deformation_gradient;
-  each_local([&](Index i) {
+  exec_host::parallel_for(body_.own(), [&](Index i) {
     auto const at = static_cast<std::size_t>(body_.id(i));
     for (int c = 0; c < D; ++c) {
       auto const k = static_cast<std::size_t>(c);
@@ -101,7 +92,7 @@ void FieldSetUp::fill_initial(Assembly const& assembly) {
     }
   });
   if (!deformed.empty() && !s_.has.displacement) {
-    each_local([&](Index i) {
+    exec_host::parallel_for(body_.own(), [&](Index i) {
       for (int c = 0; c < D * D; ++c)
         value_at(s_.F, i, c) = deformed[static_cast<std::size_t>(body_.id(i))][std::size_t{3} * (c / D) + c % D];
     });

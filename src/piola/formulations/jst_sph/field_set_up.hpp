@@ -12,7 +12,8 @@ class FieldSetUp {
 
   /// Positions and constant corrections that sweeps read at neighbours.
   void fill_records(NeighbourRecords& records, ReferencePairs const& pairs) const;
-  void fill_reference(UniqueLaneGroups const& groups, ReferencePairs const& pairs) const;
+  /// groups: those that the reference fields are stored for; nullptr: one value per slot.
+  void fill_reference(UniqueLaneGroups const* groups, ReferencePairs const& pairs) const;
   /// Scaling of the volumetric filter.
   void fill_filter(ReferencePairs const& pairs) const;
   /// Position, velocity and F of t = 0.
@@ -21,11 +22,6 @@ class FieldSetUp {
   void fill_evolved_geometry() const;
 
  private:
-  /// Calls f(slot) for the local particles, in parallel.
-  template <class F>
-  void each_local(F const& f) const;
-  /// Updates components [first, first + count) of constant data that far ghosts also need.
-  void update_ghosts_once(FieldRef const& field, int first, int count) const;
   void deform_to_positions();
 
   JstBody& body_;

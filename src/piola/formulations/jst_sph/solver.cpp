@@ -69,12 +69,6 @@ class Solver final : public BodiesSolver<JstBody, StabilityMonitor> {
   void damp(double factor) override {
     for (auto const& body : bodies_) body->damp(factor);
   }
-  void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
-    PIOLA_EXPECTS(m.size() == ids.size());
-    slots_.visit(ids, [&](std::size_t k, std::size_t body, Index slot) {
-      m[k] = bodies_[body]->volume(slot) * bodies_[body]->state().constants.rho0;
-    });
-  }
 
   Diagnostics diagnose() const override { return diagnose_from(JstDiagnosticsSum{}); }
   std::vector<FieldInfo> fields() const override { return output_field_names(); }
@@ -104,8 +98,9 @@ class Solver final : public BodiesSolver<JstBody, StabilityMonitor> {
   }
   /// Displacement variables keep F of the last stage; output needs that of x.
   void update_output_fields(JstBody& body) const override {
+    if (!body.state().has.displacement) return;
     BodyState seen = body.state();
-    if (body.options().variables == Variables::displacement) backend_.update_deformation(seen);
+    backend_.update_deformation(seen);
   }
   static constexpr int no_wave_speed = 3;  ///< a code of FailureSlot
   FailureSlot failed_particle(std::size_t body) const override;

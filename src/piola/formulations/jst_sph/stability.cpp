@@ -109,8 +109,7 @@ class Operator {
   std::size_t at(Index i, int c) const { return mode_place(body_, i, c); }
   template <class F>
   void each_particle(F const& f) const {
-    Range const own = body_.own();
-    exec_host::parallel_for(own.last - own.first, [&](Index k) { f(own.first + k); });
+    exec_host::parallel_for(body_.own(), f);
   }
   struct Squares {
     exec::ReproducibleSums<1> before, after;

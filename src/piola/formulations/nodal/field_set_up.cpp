@@ -15,17 +15,10 @@ void copy_at(LazyZeroArray<double> const& from, FieldRef const& to, int componen
 
 }  // namespace
 
-template <class F>
-void FieldSetUp::each_local(F const& f) const {
-  Range const own = body_.own();
-  exec_host::parallel_for(own.last - own.first, [&](Index k) { f(own.first + k); });
-}
-
 void FieldSetUp::fill_reference(NeighbourRecords& records) {
   auto& r = reference_;
   int const D = s_.dimension, values = Fields::values(D), of_k = Fields::terms(D) * Fields::second(D);
-  exec_host::parallel_for(s_.slots.last - s_.slots.first, [&](Index n) {
-    Index const i = s_.slots.first + n;
+  exec_host::parallel_for(s_.slots, [&](Index i) {
     copy_at(r.V, s_.V, 1, i);
     copy_at(r.mass, s_.mass, 1, i);
     copy_at(r.L, s_.L, D * D, i);
@@ -43,7 +36,7 @@ void FieldSetUp::fill_reference(NeighbourRecords& records) {
     copy_at(r.X, s_.X, D, i);
     records.complete_record(D, i);
   };
-  exec_host::parallel_for(s_.slots.last - s_.slots.first, [&](Index n) { fill_seen(s_.slots.first + n); });
+  exec_host::parallel_for(s_.slots, fill_seen);
   for (std::size_t n = 0; n < r.images.size(); ++n) fill_seen(body_.slots() + static_cast<Index>(n));
   for (Index n = 0; n < s_.ghost_count; ++n) fill_seen(s_.ghosts[n]);
   for (auto* array : {&r.L, &r.g, &r.k, &r.own, &r.mu}) LazyZeroArray<double>().swap(*array);
@@ -67,7 +60,7 @@ std::vector<MirroredParticle> FieldSetUp::keep_own_side() {
 void FieldSetUp::fill_initial() {
   auto const& moved = assembly_.initial_displacement;
   auto const& X = body_.set().X;
-  each_local([&](Index i) {
+  exec_host::parallel_for(body_.own(), [&](Index i) {
     auto const at = static_cast<std::size_t>(body_.id(i));
     for (int c = 0; c < s_.dimension; ++c) {
       auto const d = static_cast<std::size_t>(c);
@@ -100,7 +93,7 @@ void FieldSetUp::fill_offset(Backend const& backend) {
   int const D = s_.dimension;
   Field centroid("CellCentroid", "m", D, Role::reference);
   centroid.allocate_tiled(body_.slots());
-  each_local([&](Index i) {
+  exec_host::parallel_for(body_.own(), [&](Index i) {
     auto const& F = assembly_.initial_deformation_gradient[static_cast<std::size_t>(body_.id(i))];
     for (int c = 0; c < D; ++c) {
       centroid.at(i, c) = reference_.centroid[static_cast<std::size_t>(i * D + c)];

@@ -26,9 +26,6 @@ class FieldSetUp {
   void fill_offset(Backend const& backend);
 
  private:
-  /// Calls f(slot) for the local particles, in parallel.
-  template <class F>
-  void each_local(F const& f) const;
   std::span<MirroredParticle const> mirrored() const {
     return {s_.boundary.mirrored, static_cast<std::size_t>(s_.boundary.mirrored_count)};
   }

@@ -84,8 +84,8 @@ void remove_quadratic(LocalFits<D> const& fits, LazyZeroArray<double>& u) {
     for (int m = 0; m < values; ++m) b[J][m] = sums.value((values + J) * values + m);
     solve_in_place<values>(A, b[J]);
   }
-  exec_host::parallel_for(fits.own().last - fits.own().first, [&](Index k) {
-    auto const a = static_cast<std::size_t>(fits.own().first + k);
+  exec_host::parallel_for(fits.own(), [&](Index particle) {
+    auto const a = static_cast<std::size_t>(particle);
     double q[values];
     monomials_at(a, q);
     for (std::size_t J = 0; J < D; ++J)
@@ -100,8 +100,7 @@ void refine(LocalFits<D> const& fits, ProjectionMatrix<D> const& matrix,
             IntegrationCorrection& integration_correction) {
   constexpr auto values = static_cast<std::size_t>(Quadratic<D>::values);
   auto const& pairs = fits.pairs();
-  exec_host::parallel_for(fits.own().last - fits.own().first, [&](Index number) {
-    Index const particle = fits.own().first + number;
+  exec_host::parallel_for(fits.own(), [&](Index particle) {
     auto const a = static_cast<std::size_t>(particle);
     auto const c = [&](std::size_t k) -> double& {
       return integration_correction.coefficients->at(particle, static_cast<int>(k));
@@ -169,8 +168,8 @@ struct ConjugateGradients {
   /// f(particle, number) for the D numbers of each particle.
   template <class F>
   void each_number(F const& f) const {
-    exec_host::parallel_for(fits.own().last - fits.own().first, [&](Index k) {
-      auto const a = static_cast<std::size_t>(fits.own().first + k);
+    exec_host::parallel_for(fits.own(), [&](Index particle) {
+      auto const a = static_cast<std::size_t>(particle);
       for (std::size_t J = 0; J < D; ++J) f(a, a * D + J);
     });
   }

@@ -3,10 +3,12 @@
 #include "piola/domain/slot_collectives.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/exec/lazy_zero_array.hpp"
+#include "piola/formulations/common/unique_lane_groups.hpp"
 #include "piola/formulations/nodal/index_set.hpp"
 #include "piola/formulations/nodal/lattice_layout.hpp"
 #include "piola/formulations/nodal/quadratic.hpp"
 #include "piola/math/lanes.hpp"
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -139,5 +141,16 @@ class LocalFits {
 extern template class LocalFits<1>;
 extern template class LocalFits<2>;
 extern template class LocalFits<3>;
+
+/// Groups of lanes of a lattice with identical neighbourhoods, which have the same fits. Arguments as those of
+/// UniqueLaneGroups.
+template <int D>
+UniqueLaneGroups groups_of_fits(LocalFits<D> const& fits, Range slots, Index all_slots, int lanes) {
+  return {slots, all_slots, lanes, [&](Index first, std::vector<double>& key) {
+            auto const end = std::min(static_cast<std::size_t>(first + lanes), fits.X().size());
+            for (auto a = static_cast<std::size_t>(first); a < end; ++a)
+              key.push_back(static_cast<double>(fits.representative(a)));
+          }};
+}
 
 }  // namespace piola::nodal

@@ -37,13 +37,6 @@ ProjectionMatrix<D>::ProjectionMatrix(LocalFits<D> const& fits, LazyZeroArray<Sc
   state_.list = {begin_.data(), nullptr, pairs.neighbour.data(), pairs.weight.data()};
 }
 
-/// f(i) for the local particles.
-template <int D>
-template <class F>
-void ProjectionMatrix<D>::for_each_local(F const& f) const {
-  exec_host::parallel_for(own_.last - own_.first, [&](Index k) { f(own_.first + k); });
-}
-
 template <int D>
 void ProjectionMatrix<D>::distribute(HaloPlan const& halo) {
   state_.slots = even_local_range({0, slots_});
@@ -113,8 +106,8 @@ void ProjectionMatrix<D>::fill(LocalFits<D> const& fits, LazyZeroArray<ScaledCel
 template <int D>
 void ProjectionMatrix<D>::fill_sums_and_inverses(LocalFits<D> const& fits, LazyZeroArray<double>& explained) {
   bool const lattice = state_.lattice.present != nullptr;
-  if (lattice) groups_.emplace(fits, state_.slots, slots_, backend_.lanes);
-  inverse_.allocate_tiled(lattice ? groups_->slots() : slots_);
+  if (lattice) groups_ = groups_of_fits(fits, state_.slots, slots_, backend_.lanes);
+  inverse_.allocate_tiled(lattice ? groups_->stored_slots() : slots_);
   LazyZeroArray<Inverse> of_kind(lattice ? fits.X().size() : 0);
   auto const put = [this](Index place, Inverse const& inverse) {
     for (int m = 0; m < triangle; ++m) inverse_.at(place, m) = inverse[static_cast<std::size_t>(m)];
@@ -130,9 +123,8 @@ void ProjectionMatrix<D>::fill_sums_and_inverses(LocalFits<D> const& fits, LazyZ
   });
   if (!lattice) return;
   inverse_.share(groups_->stored.data());
-  groups_->each(fits.X().size(), [&](std::size_t place, std::size_t a) {
-    put(static_cast<Index>(place), of_kind[fits.representative(a)]);
-  });
+  groups_->each(static_cast<Index>(fits.X().size()),
+                [&](Index place, Index a) { put(place, of_kind[fits.representative(static_cast<std::size_t>(a))]); });
 }
 
 /// A particle's sums of weights and, per pair, p(X_b).inverse.p(X_b); returns the inverse of its normal equations.
@@ -176,12 +168,12 @@ typename ProjectionMatrix<D>::Inverse ProjectionMatrix<D>::fill_sums(LocalFits<D
 
 template <int D>
 void ProjectionMatrix<D>::apply(LazyZeroArray<double> const& x, LazyZeroArray<double>& image) {
-  for_each_local([&](Index i) {
+  exec_host::parallel_for(own_, [&](Index i) {
     for (int c = 0; c < D; ++c)
       value_at(state_.x, i, c) = x[static_cast<std::size_t>(i) * D + static_cast<std::size_t>(c)];
   });
   backend_.project(state_, {inverse_.ref(), weights_.ref(), coefficients_->ref()});
-  for_each_local([&](Index i) {
+  exec_host::parallel_for(own_, [&](Index i) {
     for (int c = 0; c < D; ++c)
       image[static_cast<std::size_t>(i) * D + static_cast<std::size_t>(c)] = value_at(state_.a, i, c);
   });

@@ -2,7 +2,6 @@
 #pragma once
 #include "piola/formulations/nodal/integration_constraint.hpp"
 #include "piola/formulations/nodal/neighbour_records.hpp"
-#include "piola/formulations/nodal/unique_lane_groups.hpp"
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -36,8 +35,6 @@ class ProjectionMatrix {
   std::unique_ptr<Field> take_coefficients() { return std::move(coefficients_); }
 
  private:
-  template <class F>
-  void for_each_local(F const& f) const;
   void allocate(LatticeLayout const* lattice);
   void distribute(HaloPlan const& halo);
   void fill(LocalFits<D> const& fits, LazyZeroArray<ScaledCell> const& cells);

@@ -9,7 +9,6 @@
 #include "piola/formulations/nodal/masses.hpp"
 #include "piola/formulations/nodal/mirror_passes.hpp"
 #include "piola/formulations/nodal/scaled_body.hpp"
-#include "piola/formulations/nodal/unique_lane_groups.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -233,10 +232,11 @@ class Tables {
       for_each_local([this](std::size_t a) { fill_second(a, &to_.k[a * terms * second]); });
       return;
     }
-    UniqueLaneGroups groups(fits_, from_.own_slots(), static_cast<Index>(slots_), from_.backend.lanes);
-    to_.k = LazyZeroArray<double>(static_cast<std::size_t>(groups.slots()) * terms * second);
-    groups.each(scaled_.particles,
-                [&](std::size_t place, std::size_t a) { fill_second(a, &to_.k[place * terms * second]); });
+    auto groups = groups_of_fits(fits_, from_.own_slots(), static_cast<Index>(slots_), from_.backend.lanes);
+    to_.k = LazyZeroArray<double>(static_cast<std::size_t>(groups.stored_slots()) * terms * second);
+    groups.each(static_cast<Index>(scaled_.particles), [&](Index place, Index a) {
+      fill_second(static_cast<std::size_t>(a), &to_.k[static_cast<std::size_t>(place) * terms * second]);
+    });
     to_.group_of_k = std::move(groups.stored);
   }
 

@@ -63,11 +63,6 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
       body->damp(factor);
     }
   }
-  void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
-    PIOLA_EXPECTS(m.size() == ids.size());
-    slots_.visit(ids,
-                 [&](std::size_t k, std::size_t body, Index slot) { m[k] = bodies_[body]->replicated_mass(slot); });
-  }
   void add_velocities(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override;
 
   Diagnostics diagnose() const override {

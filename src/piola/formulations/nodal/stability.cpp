@@ -68,8 +68,7 @@ class ParticleVectors {
   /// Calls f(slot) for the local particles.
   template <class F>
   void each_particle(F const& f) const {
-    Range const own = body_.own();
-    exec_host::parallel_for(own.last - own.first, [&](Index k) { f(own.first + k); });
+    exec_host::parallel_for(body_.own(), f);
   }
   /// Calls f(place) for the entries.
   template <class F>
