@@ -19,7 +19,7 @@ std::string_view kept_text(std::string text) {
 
 void read_limit(Section const& section, std::string_view key, double& limit, double off) {
   auto const value = section.find(key);
-  if (value && value->node.is_text() && value->node.text == "off")
+  if (value && value->node.is_text("off"))
     limit = off;
   else
     section.read(key, limit);

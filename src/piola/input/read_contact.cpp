@@ -104,7 +104,7 @@ void refuse_second(Section const& section, std::string const& what) {
 }  // namespace
 
 void read_contact(Value const& value, int dimension, Problems& problems, CaseSpec& spec) {
-  if (value.node.is_text() && value.node.text == "none") {
+  if (value.node.is_text("none")) {
     spec.contact.emplace();
     spec.contact->law = Law::none;
     spec.contact->places = {{"", value.node.place}, {"law", value.node.place}};
