@@ -70,7 +70,7 @@ void read_centre(Section const& section, PictureSpec& picture, std::span<BodySpe
   for (BodySpec const& body : bodies)
     if (!body.name.empty()) known.push_back(body.name);
   if (auto const body = section.find("follow"))
-    if (auto const word = read_word(*body, known, section.problems())) picture.follow = *word;
+    if (auto const word = read_word(*body, known, section.problems())) picture.followed_body = *word;
 }
 
 void check_component(Section const& section, PictureSpec const& picture) {
