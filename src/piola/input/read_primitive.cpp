@@ -14,6 +14,7 @@
 #include <numbers>
 
 namespace piola {
+
 Vec<3> first_three(std::vector<double> const& numbers) {
   Vec<3> v;
   for (std::size_t c = 0; c < std::min<std::size_t>(3, numbers.size()); ++c) v[static_cast<int>(c)] = numbers[c];

@@ -93,7 +93,6 @@ std::vector<std::string> known_fields() {
 void read_run(Section const& section, RunSpec& run) {
   read_members(section, run_keys(), run);
   if (!run.relax) section.refuse("relax_tolerance", "is used only with relax = true");
-  section.read("relax_tolerance", run.relax_tolerance);
   read_threads(section, run);
   read_repartition(section, run);
   read_guards(section, run.guards);
