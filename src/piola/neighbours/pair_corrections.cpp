@@ -78,36 +78,30 @@ void ReferencePairs::correct(ParticleSet const& set, Body const& body, SlotOrder
   if (regular_) {
     stands_for.assign(kinds_, absent);
     for (Index a = particles_; a-- > 0;) stands_for[c.at(a)] = a;
+  } else {
+    c.first = own_.first;
   }
-  if (!regular_) c.first = own_.first;
-  auto const places = static_cast<std::size_t>(regular_ ? std::ssize(stands_for) : own_.last - own_.first);
+  auto const places = regular_ ? kinds_ : static_cast<std::size_t>(own_.last - own_.first);
   c.C.assign(places, {});
   c.G.assign(places, {});
   c.alpha.assign(places, {});
   c.beta.assign(places, 0);
   c.diagonal.assign(places, 0);
   c.neighbours.assign(places, 0);
-  auto const first_refused = [&](std::size_t n, auto const& slot_of) {
-    std::vector<char> good(n, 1);
-    exec_host::parallel_for(static_cast<Index>(n), [&](Index k) {
-      TooFewNeighbours refusal;
-      auto const at = static_cast<std::size_t>(k);
-      if (slot_of(at) != absent) good[at] = correct(slot_of(at), at, refusal) ? 1 : 0;
-    });
-    auto const bad = std::find(good.begin(), good.end(), 0);
-    return bad == good.end() ? absent : static_cast<Index>(bad - good.begin());
-  };
-  Index const refused =
-      regular_ ? first_refused(places, [&](std::size_t at) { return stands_for[at]; })
-               : first_refused(places, [&](std::size_t at) { return own_.first + static_cast<Index>(at); });
-  if (refused != absent) {
-    auto const at = static_cast<std::size_t>(refused);
-    Index const a = regular_ ? stands_for[at] : own_.first + refused;
+  auto const slot_of = [&](std::size_t at) { return regular_ ? stands_for[at] : own_.first + static_cast<Index>(at); };
+  std::vector<char> good(places, 1);
+  exec_host::parallel_for(static_cast<Index>(places), [&](Index k) {
     TooFewNeighbours refusal;
-    correct(a, at, refusal);
-    auto const id = order.id[static_cast<std::size_t>(a)];
-    throw refusal.error(body.name, id, set.X[static_cast<std::size_t>(id)], dimension_);
-  }
+    auto const at = static_cast<std::size_t>(k);
+    if (slot_of(at) != absent) good[at] = correct(slot_of(at), at, refusal) ? 1 : 0;
+  });
+  auto const bad = std::find(good.begin(), good.end(), 0);
+  if (bad == good.end()) return;
+  auto const at = static_cast<std::size_t>(bad - good.begin());
+  TooFewNeighbours refusal;
+  correct(slot_of(at), at, refusal);
+  auto const id = order.id[static_cast<std::size_t>(slot_of(at))];
+  throw refusal.error(body.name, id, set.X[static_cast<std::size_t>(id)], dimension_);
 }
 
 bool ReferencePairs::correct(Index a, std::size_t at, TooFewNeighbours& refusal) {

@@ -98,7 +98,7 @@ class ReferencePairs {
   template <class F>
   void each_part(F const& f) const;
   void find_offsets(Body const& body);
-  /// Classifies slots by the memory offsets of their neighbours: sets kind_of_ and distance_.
+  /// Classifies slots by the memory offsets of their neighbours: sets corrections_.kind, kinds_ and distance_.
   void find_kinds(ParticleSet const& set, SlotOrder const& order);
   void search(SlotOrder const& order);
   /// Slot of the particle of which `slot` holds a copy; `slot` itself for a particle.

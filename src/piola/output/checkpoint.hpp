@@ -48,7 +48,7 @@ struct Checkpoint {
 /// array in place of checkpoint.state, which avoids a second copy of it in memory.
 void write_checkpoint(std::filesystem::path const& path, Checkpoint const& checkpoint,
                       std::function<void(StateWriter&)> const& save = {});
-/// Reads one file after its seal has been verified. Throws FileError.
+/// Reads one file after its checksum trailer has been verified. Throws FileError.
 Checkpoint read_checkpoint(std::filesystem::path const& path);
 
 /// checkpoints/000001234.h5 in a results folder, for this step.

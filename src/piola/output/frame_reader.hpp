@@ -9,8 +9,8 @@
 
 namespace piola {
 
-/// Reads one frame part by part. Fields are in single precision as stored. The seal is checked once. All members throw
-/// FileError if the file is damaged.
+/// Reads one frame part by part. Fields are in single precision as stored. The checksum trailer is verified once. All
+/// members throw FileError if the file is damaged.
 class FrameReader {
  public:
   explicit FrameReader(std::filesystem::path const& path);

@@ -73,7 +73,7 @@ class Writer {
   /// Path of the file until finish().
   std::filesystem::path const& part() const;
   std::filesystem::path const& path() const;
-  /// Appends the seal and renames the file. Nothing can be written afterwards.
+  /// Appends the checksum trailer and renames the file. Nothing can be written afterwards.
   void finish();
 
  private:
@@ -83,13 +83,14 @@ class Writer {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Reads a file. The whole file is verified by its seal before HDF5 opens it. Kind, shape and size of an object are
-/// checked before its values are read. A missing object, or one of another kind, throws FileError with path and name.
+/// Reads a file. The whole file is verified by its checksum trailer before HDF5 opens it. Kind, shape and size of an
+/// object are checked before its values are read. A missing object, or one of another kind, throws FileError with path
+/// and name.
 class Reader {
  public:
   explicit Reader(std::filesystem::path const& path);
-  /// Opens a file without a seal, for files of other programs, whose texts may have any length. HDF5 may crash or hang
-  /// on a damaged file: call only in a child process.
+  /// Opens a file without a checksum trailer, for files of other programs, whose texts may have any length. HDF5 may
+  /// crash or hang on a damaged file: call only in a child process.
   static Reader unsealed(std::filesystem::path const& path);
   bool has(std::string const& path) const;
   std::vector<std::string> names(std::string const& group) const;  ///< members, sorted

@@ -32,10 +32,10 @@ struct FrameCodes {
   std::vector<std::vector<std::uint8_t>> fields;
 };
 
-/// Encodes frames as bytes that compress well. A key frame is independent. Other frames are
-/// differences to a prediction from the previous frame, or by linear extrapolation from the previous two. Then follows
-/// the difference to the particle before, signs folded into the lowest bit, low bytes of an axis before high ones. All
-/// modulo 2^16, so that nothing is lost.
+/// Encodes frames as bytes that compress well. A key frame is independent. Other frames are differences to a prediction
+/// from the previous frame, or by linear extrapolation from the previous two. Then follows the difference to the
+/// particle before, signs folded into the lowest bit, low bytes of an axis before high ones. All modulo 2^16, so that
+/// nothing is lost.
 class FrameCodec {
  public:
   static constexpr int key_every = 10;

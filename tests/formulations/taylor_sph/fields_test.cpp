@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The field lists: checkpoint, records.
 #include "piola/formulations/taylor_sph/fields.hpp"
+#include "piola/formulations/common/field_list.hpp"
 #include <gtest/gtest.h>
 
 namespace piola {
@@ -11,7 +12,7 @@ using Names = std::vector<std::string>;
 
 Names evolved_names(FieldSet const& set) {
   Names names;
-  each_evolved(set, [&](Field const& field) { names.push_back(checkpoint_name(field)); });
+  each_evolved(set, [&](Field const& field) { names.push_back(checkpoint_name(field.name())); });
   return names;
 }
 

@@ -8,6 +8,16 @@ namespace piola {
 
 static_assert(std::is_trivially_copyable_v<ListedRef>);
 
+std::string checkpoint_name(char const* field) {
+  std::string r;
+  for (char const* c = field; *c != '\0'; ++c) {
+    bool const capital = *c >= 'A' && *c <= 'Z';
+    if (capital && c != field) r += '_';
+    r += capital ? static_cast<char>(*c - 'A' + 'a') : *c;
+  }
+  return r;
+}
+
 ListedRef::ListedRef(FieldList* list, char const* of, char const* unit, int components, Role role, bool exists) {
   if (list != nullptr) list->add(*this, exists, of, unit, components, role);
 }
@@ -25,16 +35,6 @@ Field& FieldList::operator[](FieldRef const& ref) {
 
 void FieldList::bind() {
   for (Entry& entry : entries_) *entry.ref = entry.field.ref();
-}
-
-std::string FieldList::name_in_checkpoint(char const* name) {
-  std::string r;
-  for (char const* c = name; *c != '\0'; ++c) {
-    bool const capital = *c >= 'A' && *c <= 'Z';
-    if (capital && c != name) r += '_';
-    r += capital ? static_cast<char>(*c - 'A' + 'a') : *c;
-  }
-  return r;
 }
 
 std::size_t FieldList::bytes() const {

@@ -6,6 +6,9 @@
 
 namespace piola {
 
+/// Name of a field in checkpoints: that of "WaveSpeed" is "wave_speed".
+std::string checkpoint_name(char const* field);
+
 /// The particle fields of one body: their memory, and the references by which loops read and write it. A formulation
 /// declares its fields once, as ListedRefs of the state of a body; memory and checkpoints follow from that list.
 class FieldList {
@@ -31,7 +34,7 @@ class FieldList {
   void each_evolved(F const& f) const {
     for (Entry const& entry : entries_)
       if (entry.exists && entry.field.role() == Role::evolved)
-        f(name_in_checkpoint(entry.field.name()), static_cast<FieldRef const&>(*entry.ref), entry.field.components());
+        f(checkpoint_name(entry.field.name()), static_cast<FieldRef const&>(*entry.ref), entry.field.components());
   }
   std::size_t bytes() const;
 
@@ -43,8 +46,6 @@ class FieldList {
     bool exists;
     Field field;
   };
-  /// "WaveSpeed" -> "wave_speed"
-  static std::string name_in_checkpoint(char const* name);
 
   std::deque<Entry> entries_;  // a Field stays where it is
 };

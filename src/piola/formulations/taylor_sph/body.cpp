@@ -2,7 +2,6 @@
 #include "piola/formulations/taylor_sph/body.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/materials/laws.hpp"
-#include "piola/mechanics/prescribed.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

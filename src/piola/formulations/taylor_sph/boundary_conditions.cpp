@@ -106,22 +106,25 @@ void Boundary::read_loads(Assembly const& assembly) {
   std::int64_t const first = real_.body().first, last = real_.body().last;
   for (std::size_t number = 0; number < assembly.loads.size(); ++number) {
     Load const& load = assembly.loads[number];
+    std::vector<std::size_t> own;  // places of the particles of this body in the lists of the load
+    for (std::size_t k = 0; k < load.particles.size(); ++k)
+      if (load.particles[k] >= first && load.particles[k] < last) own.push_back(k);
     Load mine = load;
     mine.particles.clear();
-    if (!load.on_face()) mine.factor.clear();
-    for (std::size_t k = 0; k < load.particles.size(); ++k) {
-      if (load.particles[k] < first || load.particles[k] >= last) continue;
-      std::int64_t const particle = load.particles[k] - first;
-      if (load.on_face()) {
-        loaded_[static_cast<std::size_t>(particle)].push_back({tractions_.size(), load.normal_of(k)});
-        continue;
+    if (load.on_face()) {
+      for (std::size_t const k : own)
+        loaded_[static_cast<std::size_t>(load.particles[k] - first)].push_back({tractions_.size(), load.normal_of(k)});
+      tractions_.push_back(mine);
+      traction_number_.push_back(number);
+    } else if (!own.empty()) {
+      mine.factor.clear();
+      for (std::size_t const k : own) {
+        mine.particles.push_back(load.particles[k] - first);
+        mine.factor.push_back(load.factor[k]);
       }
-      mine.particles.push_back(particle);
-      mine.factor.push_back(load.factor[k]);
+      accelerations_.push_back(mine);
+      acceleration_number_.push_back(number);
     }
-    if (!load.on_face() && mine.particles.empty()) continue;
-    (load.on_face() ? tractions_ : accelerations_).push_back(mine);
-    (load.on_face() ? traction_number_ : acceleration_number_).push_back(number);
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Snapshots of a body: for checkpoints, and for new cells.
 #include "piola/base/errors.hpp"
+#include "piola/formulations/common/field_list.hpp"
 #include "piola/formulations/taylor_sph/body.hpp"
 #include <algorithm>
 #include <array>
@@ -40,7 +41,8 @@ template <class S, class F>
 void each_array(TaylorBody const& body, std::size_t number, S& snapshot, F const& f) {
   auto const each_field = [&](auto const& set, auto& all) {
     auto values = all.begin();
-    each_evolved(set, [&](Field const& of) { f(fmt::format("body{}_{}", number, checkpoint_name(of)), *values++); });
+    each_evolved(set,
+                 [&](Field const& of) { f(fmt::format("body{}_{}", number, checkpoint_name(of.name())), *values++); });
   };
   each_field(body.particles().fields(), snapshot.fields);
   f(fmt::format("body{}_position_of_lists", number), snapshot.x_of_lists);

@@ -17,9 +17,9 @@ ExternalActions::ExternalActions(Assembly const& assembly, Particles const& part
       of_load_(assembly.loads.size()) {}
 
 void ExternalActions::set_initial_momentum() {
-  double now[MotionSums::size];
-  backend_.motion(state_, now);
-  for (std::size_t k = 0; k < 6; ++k) totals.momentum[k] = now[MotionSums::v + k];
+  Impulse const now = momentum();
+  std::copy(now.linear.begin(), now.linear.end(), totals.momentum.begin());
+  std::copy(now.angular.begin(), now.angular.end(), totals.momentum.begin() + 3);
 }
 
 Impulse ExternalActions::momentum() const {

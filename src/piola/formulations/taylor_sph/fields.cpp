@@ -69,14 +69,4 @@ void CellFields::set_views(BodyState& state) {
                         patterns_};
 }
 
-std::string checkpoint_name(Field const& field) {
-  std::string name;
-  for (char const* c = field.name(); *c != 0; ++c) {
-    bool const capital = *c >= 'A' && *c <= 'Z';
-    if (capital && !name.empty()) name += '_';
-    name += capital ? static_cast<char>(*c - 'A' + 'a') : *c;
-  }
-  return name;
-}
-
 }  // namespace piola::taylor_sph

@@ -2,7 +2,6 @@
 #pragma once
 #include "piola/exec/field.hpp"
 #include "piola/formulations/taylor_sph/state.hpp"
-#include <string>
 #include <vector>
 
 namespace piola::taylor_sph {
@@ -59,9 +58,6 @@ struct CellFields : FieldSet {
  private:
   Memory records_, memory_;
 };
-
-/// Name of a field in checkpoints: "KernelVolume" is "kernel_volume".
-std::string checkpoint_name(Field const& field);
 
 /// Calls f(field) for the evolved fields of a list, in its order.
 template <class Set, class F>

@@ -12,7 +12,7 @@ Particles::Particles(Assembly const& assembly, std::size_t body, Options const& 
   auto const& set = assembly.particles;
   X_.assign(set.X.begin() + body_.first, set.X.begin() + body_.last);
   kernel_volume_.assign(set.kernel_volume.begin() + body_.first, set.kernel_volume.begin() + body_.last);
-  if (options.adjoint) kernel_volume_.assign(X_.size(), kernel_volume_.front());
+  if (options.adjoint) kernel_volume_ = std::vector<double>(X_.size(), kernel_volume_.front());
   start_.resize(X_.size());
   for (Index i = 0; i < count(); ++i)
     for (std::size_t c = 0; c < at(dimension()); ++c) {

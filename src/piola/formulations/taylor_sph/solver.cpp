@@ -201,9 +201,7 @@ std::optional<Failure> Solver::failure() const {
 
 void Solver::save(StateWriter& writer) const {
   if (comm::rank() != 0) return;
-  for (std::size_t k = 0; k < bodies_.size(); ++k) {
-    save_body(*bodies_[k], k, writer);
-  }
+  for (std::size_t k = 0; k < bodies_.size(); ++k) save_body(*bodies_[k], k, writer);
   writer.put("time", std::array{time_});
   writer.put("actions", actions_.state());
 }
