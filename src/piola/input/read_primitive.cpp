@@ -75,10 +75,7 @@ SolidPtr read_torus(Section const& section) {
   section.read("tube_radius", tube);
   Vec<3> const axis = axis_of(section);
   section.refuse_unknown();
-  if (tube > 0 && radius > 0 && tube >= radius)
-    section.problems().add(section.place_of("tube_radius"),
-                           section.name_of("tube_radius") + " is " + number_text(tube) +
-                               " m (allowed: below radius, which is " + number_text(radius) + " m)");
+  check_below_radius(section, "tube_radius", tube, radius);
   return centre ? geometry::torus(*centre, axis, radius, tube) : nullptr;
 }
 
