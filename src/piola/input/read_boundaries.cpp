@@ -145,16 +145,13 @@ SupportSpec read_support(Section const& section, std::vector<BodyNames> const& b
   int const dimension = body != nullptr ? body->dimension : 3;
   if (!section.has("patch") && !section.has("where"))
     section.report_missing("where\" or \"patch", "the particles that are held", "where = \"X < 1\"");
-  support.where =
-      section.has("where") ? section.formula("where", body != nullptr ? body->names : Names{}) : std::nullopt;
+  support.where = section.formula("where", body != nullptr ? body->names : Names{});
   if (body != nullptr && section.has("patch")) {
     support.patch = read_patch(section, *body);
     support.shape = body->shape;
   }
-  if (section.has("hold")) {
-    if (!section.has("patch")) section.refuse("hold", "is used only by a support on a patch");
-    if (int const word = section.word_index("hold"); word >= 0) support.hold = static_cast<SupportSpec::Hold>(word);
-  }
+  if (!section.has("patch")) section.refuse("hold", "is used only by a support on a patch");
+  if (int const word = section.word_index("hold"); word >= 0) support.hold = static_cast<SupportSpec::Hold>(word);
   read_fix(section, dimension, support);
   if (body != nullptr) {
     if (auto const normal = read_direction(section, "normal", dimension)) support.normal = *normal;

@@ -187,7 +187,7 @@ SolidPtr read_extruded(Section const& section) {
   std::vector<std::vector<Vec<2>>> polygons;
   auto const outline = section.find("polygon");
   if (outline) polygons.push_back(read_polygon(*outline, false, section.problems()));
-  if (auto const holes = section.has("holes") ? section.find("holes") : std::nullopt)
+  if (auto const holes = section.find("holes"))
     if (auto const items = read_list(*holes, 1, 1000, section.problems()))
       for (Value const& item : *items) polygons.push_back(read_polygon(item, false, section.problems()));
   double from = 0, to = 0;

@@ -124,20 +124,18 @@ class SolidReader {
 
   /// Applies `transform`.
   static SolidPtr placed_by(Section const& node, SolidPtr solid) {
-    auto const section = node.has("transform") ? inner(node, "transform") : std::nullopt;
+    auto const section = inner(node, "transform");
     if (!section) return solid;
     std::size_t const before = node.problems().count();
     geometry::RigidTransform placing;
     section->read("scale", placing.scale);
     if (section->has("rotate")) read_turns(*section, solid->dimension(), placing);
-    if (section->has("move")) {
-      if (auto const move = section->point("move")) {
-        if (static_cast<int>(move->size()) != solid->dimension())
-          node.problems().add(section->place_of("move"),
-                              section->name_of("move") + " has " + std::to_string(move->size()) +
-                                  " components (allowed: " + std::to_string(solid->dimension()) + ")");
-        placing.move = first_three(*move);
-      }
+    if (auto const move = section->point("move")) {
+      if (static_cast<int>(move->size()) != solid->dimension())
+        node.problems().add(section->place_of("move"),
+                            section->name_of("move") + " has " + std::to_string(move->size()) +
+                                " components (allowed: " + std::to_string(solid->dimension()) + ")");
+      placing.move = first_three(*move);
     }
     section->refuse_unknown();
     return node.problems().count() == before ? geometry::placed(std::move(solid), placing) : nullptr;
@@ -160,8 +158,7 @@ class SolidReader {
       Section const one(*turn, "body.shape.rotate", section.problems());
       Vec<3> axis{{0, 0, 1}};
       if (dimension == 2) one.refuse("axis", "is used only in 3D");
-      if (one.has("axis"))
-        if (auto const given = one.point("axis")) axis = first_three(*given);
+      if (auto const given = one.point("axis")) axis = first_three(*given);
       double angle = 0;
       one.read("angle", angle);
       one.refuse_unknown();
