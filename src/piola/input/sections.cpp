@@ -70,6 +70,29 @@ std::optional<std::array<double, 3>> read_direction(Section const& section, std:
   return direction;
 }
 
+std::optional<Section> table_with_keys(Section const& section, std::string_view key, std::string keys) {
+  auto const value = section.find(key);
+  if (!value) return {};
+  if (value->node.is_table()) return Section(value->node, std::move(keys), section.problems());
+  section.problems().add(value->node.place, value->name + " is " + shown(value->node) + " (allowed: a table) - write " +
+                                                std::string(key) + " = { ... }");
+  return {};
+}
+
+std::vector<Section> tables_in(Section const& section, std::string_view key, std::size_t most) {
+  std::vector<Section> tables;
+  auto const value = section.find(key);
+  auto const items = value ? read_list(*value, 1, most, section.problems()) : std::nullopt;
+  if (!items) return tables;
+  for (Value const& item : *items)
+    if (item.node.is_table())
+      tables.emplace_back(item.node, value->name, section.problems());
+    else
+      section.problems().add(item.node.place, item.name + " is " + shown(item.node) + " (allowed: a table) - write [[" +
+                                                  value->name + "]]");
+  return tables;
+}
+
 void check_order(Section const& section, std::pair<std::string_view, double> low,
                  std::pair<std::string_view, double> high, std::string_view unit) {
   if (!section.has(high.first) || low.second <= high.second) return;

@@ -36,6 +36,10 @@ std::optional<std::vector<Expression>> read_formulas(Value const& value, std::st
 std::optional<std::array<double, 3>> read_components(Section const& section, std::string_view key, int dimension);
 /// As read_components(), normalised to a unit vector.
 std::optional<std::array<double, 3>> read_direction(Section const& section, std::string_view key, int dimension);
+/// A sub-table whose keys are those of the section `keys`; nothing (and a problem) if it is no table.
+std::optional<Section> table_with_keys(Section const& section, std::string_view key, std::string keys);
+/// The tables of a list of 1 to `most`, such as [[body.part]]. Items that are no tables are problems.
+std::vector<Section> tables_in(Section const& section, std::string_view key, std::size_t most);
 /// Reports the second of two keys if it is given and below the first: key, value.
 void check_order(Section const& section, std::pair<std::string_view, double> low,
                  std::pair<std::string_view, double> high, std::string_view unit);
