@@ -154,7 +154,7 @@ SupportSpec read_support(Section const& section, std::vector<BodyNames> const& b
   if (int const word = section.word_index("hold"); word >= 0) support.hold = static_cast<SupportSpec::Hold>(word);
   read_fix(section, dimension, support);
   if (body != nullptr) {
-    if (auto const normal = read_direction(section, "normal", dimension)) support.normal = *normal;
+    read_direction(section, "normal", dimension, support.normal);
     support.velocity = read_vector(section, "velocity", *body);
   }
   section.refuse_unknown();
@@ -206,8 +206,8 @@ CrackSpec read_crack(Section const& section, std::vector<BodyNames> const& bodie
                                                          " (allowed: boxes in 2D) - remove the crack");
   }
   int const dimension = body != nullptr ? body->dimension : 2;
-  if (auto const from = read_components(section, "from", dimension)) crack.from = *from;
-  if (auto const to = read_components(section, "to", dimension)) crack.to = *to;
+  read_components(section, "from", dimension, crack.from);
+  read_components(section, "to", dimension, crack.to);
   section.refuse_unknown();
   crack.places = places_of(section, {"body", "from", "to"});
   return crack;

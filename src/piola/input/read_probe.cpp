@@ -55,8 +55,8 @@ bool fits(Section const& section, Kind kind, int dimension) {
 void read_at(Section const& section, std::string_view about, int dimension, ProbeSpec& probe) {
   if (!section.has("at"))
     section.report_missing("at", about, "at = [\"0 m\", ...]");
-  else if (auto const at = read_components(section, "at", dimension))
-    probe.at = *at;
+  else
+    read_components(section, "at", dimension, probe.at);
 }
 
 void read_line(Section const& section, int dimension, ProbeSpec& probe) {
@@ -131,8 +131,7 @@ void read_comparison(Section const& section, Names const& names, ProbeSpec& prob
 
 /// Reads the direction of the range ahead of a crack tip that the kind "stress_intensity" evaluates.
 void read_ahead(Section const& section, ProbeSpec& probe) {
-  int const dimension = info_of(probe.kind).dimension;
-  if (auto const direction = read_direction(section, "direction", dimension)) probe.direction = *direction;
+  read_direction(section, "direction", info_of(probe.kind).dimension, probe.direction);
   if (section.has("from")) check_order(section, {"from", probe.from}, {"to", probe.to}, "m");
 }
 

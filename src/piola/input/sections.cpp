@@ -43,31 +43,31 @@ std::optional<std::array<Expression, 3>> read_vector(Section const& section, std
   return vector;
 }
 
-std::optional<std::array<double, 3>> read_components(Section const& section, std::string_view key, int dimension) {
+bool read_components(Section const& section, std::string_view key, int dimension, std::array<double, 3>& target) {
   auto const numbers = section.point(key);
-  if (!numbers) return std::nullopt;
+  if (!numbers) return false;
   if (static_cast<int>(numbers->size()) != dimension) {
     section.problems().add(section.place_of(key), section.name_of(key) + " has " + std::to_string(numbers->size()) +
                                                       " components (allowed: " + std::to_string(dimension) +
                                                       ", the dimension of the body)");
-    return std::nullopt;
+    return false;
   }
-  std::array<double, 3> components{};
-  std::copy(numbers->begin(), numbers->end(), components.begin());
-  return components;
+  target = {};
+  std::copy(numbers->begin(), numbers->end(), target.begin());
+  return true;
 }
 
-std::optional<std::array<double, 3>> read_direction(Section const& section, std::string_view key, int dimension) {
-  auto direction = read_components(section, key, dimension);
-  if (!direction) return std::nullopt;
-  double const length = std::hypot((*direction)[0], (*direction)[1], (*direction)[2]);
+bool read_direction(Section const& section, std::string_view key, int dimension, std::array<double, 3>& target) {
+  std::array<double, 3> direction{};
+  if (!read_components(section, key, dimension, direction)) return false;
+  double const length = std::hypot(direction[0], direction[1], direction[2]);
   if (!(length > 0)) {
     section.problems().add(section.place_of(key),
                            section.name_of(key) + " is zero (allowed: any other length) - give a direction");
-    return std::nullopt;
+    return false;
   }
-  for (double& component : *direction) component /= length;
-  return direction;
+  for (std::size_t d = 0; d < 3; ++d) target[d] = direction[d] / length;
+  return true;
 }
 
 std::optional<Section> table_with_keys(Section const& section, std::string_view key, std::string keys) {
