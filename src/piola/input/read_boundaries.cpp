@@ -13,8 +13,6 @@ using Frame = Support::Frame;
 void read_fix(Section const& section, int dimension, SupportSpec& support) {
   std::string fix;
   if (!section.read("fix", fix)) return;
-  std::string const letters = std::string("xyz").substr(0, static_cast<std::size_t>(dimension));
-  std::string const is = "support.fix is " + in_quotes(fix);
   if (fix == "normal" || fix == "tangent") {
     support.frame = fix == "normal" ? Frame::normal : Frame::tangent;
     if (!section.has("normal"))
@@ -23,12 +21,11 @@ void read_fix(Section const& section, int dimension, SupportSpec& support) {
   }
   if (section.has("normal")) {
     section.problems().add(section.place_of("fix"),
-                           is + " (allowed with a normal: \"normal\", \"tangent\") - choose one, or remove normal");
+                           "support.fix is " + in_quotes(fix) +
+                               " (allowed with a normal: \"normal\", \"tangent\") - choose one, or remove normal");
     return;
   }
-  for (std::size_t d = 0; d < letters.size(); ++d) support.fix[d] = fix.find(letters[d]) != std::string::npos;
-  if (!fix.empty() && fix.size() <= 3 && fix.find_first_not_of(letters) == std::string::npos) return;
-  section.problems().add(section.place_of("fix"), is + " (allowed: one or more of the letters " + letters + ")");
+  support.fix = fixed_axes(section, fix, dimension);
 }
 
 /// The faces that a box of this dimension has.

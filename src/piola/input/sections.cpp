@@ -70,6 +70,16 @@ bool read_direction(Section const& section, std::string_view key, int dimension,
   return true;
 }
 
+std::array<bool, 3> fixed_axes(Section const& section, std::string const& fix, int dimension) {
+  std::string const letters = std::string("xyz").substr(0, static_cast<std::size_t>(dimension));
+  std::array<bool, 3> fixed{};
+  for (std::size_t d = 0; d < letters.size(); ++d) fixed[d] = fix.find(letters[d]) != std::string::npos;
+  if (fix.empty() || fix.size() > 3 || fix.find_first_not_of(letters) != std::string::npos)
+    section.problems().add(section.place_of("fix"), section.name_of("fix") + " is " + in_quotes(fix) +
+                                                        " (allowed: one or more of the letters " + letters + ")");
+  return fixed;
+}
+
 std::optional<Section> table_with_keys(Section const& section, std::string_view key, std::string keys) {
   auto const value = section.find(key);
   if (!value) return {};

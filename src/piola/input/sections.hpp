@@ -36,6 +36,8 @@ std::optional<std::vector<Expression>> read_formulas(Value const& value, std::st
 bool read_components(Section const& section, std::string_view key, int dimension, std::array<double, 3>& target);
 /// As read_components(), normalised to a unit vector.
 bool read_direction(Section const& section, std::string_view key, int dimension, std::array<double, 3>& target);
+/// The directions that the letters of the key `fix` name; a problem if there are other letters or none.
+std::array<bool, 3> fixed_axes(Section const& section, std::string const& fix, int dimension);
 /// A sub-table whose keys are those of the section `keys`; nothing (and a problem) if it is no table.
 std::optional<Section> table_with_keys(Section const& section, std::string_view key, std::string keys);
 /// The tables of a list of 1 to `most`, such as [[body.part]]. Items that are no tables are problems.
