@@ -15,7 +15,7 @@ struct SolidKey {
   std::string_view key, meaning;
   KeyInfo::Kind kind = table;
 };
-constexpr std::array solid_kinds{
+constexpr std::array solid_rows{
     SolidKey{"torus", "a ring of circular cross-section"},
     SolidKey{"cone", "a cone or a frustum"},
     SolidKey{"capsule", "all places within a radius of a line; 2D, too"},
@@ -29,8 +29,8 @@ constexpr std::array solid_kinds{
     SolidKey{"intersection", "a list of shapes: what is in all of them", list},
     SolidKey{"transform", "scales, turns and moves the shape, in this order"},
 };
-constexpr std::array plain_kinds{SolidKey{"box", "a box"}, SolidKey{"sphere", "a sphere or disc"},
-                                 SolidKey{"cylinder", "a cylinder"}};
+constexpr std::array plain_rows{SolidKey{"box", "a box"}, SolidKey{"sphere", "a sphere or disc"},
+                                SolidKey{"cylinder", "a cylinder"}};
 
 constexpr std::array parameters{
     KeyInfo{"body.shape", "arrangement", word, "", any_value,
@@ -111,9 +111,9 @@ std::vector<KeyInfo> keys_of_solids() {
   auto const add = [&](std::string_view section, SolidKey const& k) {
     all.push_back({section, k.key, k.kind, "", any_value, "none", k.meaning});
   };
-  for (SolidKey const& k : solid_kinds) add("body.shape", k);
-  for (SolidKey const& k : plain_kinds) add("body.shape.part", k);
-  for (SolidKey const& k : solid_kinds) add("body.shape.part", k);
+  for (SolidKey const& k : solid_rows) add("body.shape", k);
+  for (SolidKey const& k : plain_rows) add("body.shape.part", k);
+  for (SolidKey const& k : solid_rows) add("body.shape.part", k);
   all.insert(all.end(), parameters.begin(), parameters.end());
   return all;
 }
