@@ -193,7 +193,7 @@ void add_view_options(CLI::App& command, RenderArguments& options) {
                                   })
       ->expected(3);
   add_change<std::string>(command, look, "--follow", "Name of a body that stays in the middle and fills the picture",
-                          [](PictureSpec& picture, std::string const& body) { picture.follow = body; });
+                          [](PictureSpec& picture, std::string const& body) { picture.followed_body = body; });
   add_change<std::vector<int>>(command, look, "--size",
                                "Width and height in pixels (default: that of the case, else fitted to the content)",
                                [](PictureSpec& picture, std::vector<int> const& size) {

@@ -16,10 +16,10 @@ struct ReportArguments {
   std::string folder, out;
   report::ReportOptions what;
   double megabytes = 30;
-  bool follow = false;
+  bool until_ended = false;
 };
 
-constexpr int follow_seconds = 10;
+constexpr int rewrite_seconds = 10;
 
 report::ReportResult write_one(ReportArguments const& options, std::filesystem::path const& out) {
   auto const result = report::write_report(options.folder, out, options.what);
@@ -32,7 +32,7 @@ void tell_notes(report::ReportResult const& result) {
   for (std::string const& note : result.notes) print_message("note: {}\n", note);
 }
 
-/// Anew every ten seconds, until the run has ended or a signal comes.
+/// Writes the page every ten seconds, until the run has ended or a signal comes.
 int rewrite_until_ended(ReportArguments const& options, std::filesystem::path const& out) {
   catch_stop_signals();
   for (;;) {
@@ -41,7 +41,7 @@ int rewrite_until_ended(ReportArguments const& options, std::filesystem::path co
       tell_notes(result);
       return completed;
     }
-    if (!wait_unless_stopped(follow_seconds)) return stopped_by_signal;
+    if (!wait_unless_stopped(rewrite_seconds)) return stopped_by_signal;
   }
 }
 
@@ -52,8 +52,8 @@ int write_page_of_run(ReportArguments options) {
   if (out.has_parent_path()) make_folder(out.parent_path());
   for (std::string& field : options.what.fields) field = current_output_name(field);
   options.what.budget = options.megabytes * 1e6;
-  options.what.reload = options.follow ? follow_seconds : 0;
-  if (options.follow) return rewrite_until_ended(options, out);
+  options.what.reload = options.until_ended ? rewrite_seconds : 0;
+  if (options.until_ended) return rewrite_until_ended(options, out);
   tell_notes(write_one(options, out));
   return completed;
 }
@@ -82,7 +82,7 @@ void add_report(CLI::App& program, Action& action) {
   command->add_option("--checks", options->what.checks,
                       "A checks.toml to judge the run by (default: that in the folder)");
   command->add_option("--variant", options->what.variant, "Its variant that the run is (default: found by the case)");
-  command->add_flag("--follow", options->follow, "Write the page again every 10 s until the run has ended");
+  command->add_flag("--follow", options->until_ended, "Write the page again every 10 s until the run has ended");
   command->callback([options, &action] { action = [options] { return write_page_of_run(*options); }; });
 }
 

@@ -112,7 +112,7 @@ TEST(Camera, FollowsABody) {
     points.push_back({p[0] + 100, 0.1 * p[1], p[2]});
     body.push_back(1);
   }
-  Camera const camera{.view = {0, 0}, .follow = 1};
+  Camera const camera{.view = {0, 0}, .followed_body = 1};
   Window window;
   include(window, camera, {.points = points, .body = body});
   EXPECT_LT(window.x1 - window.x0, 1.2) << "the other body does not count";

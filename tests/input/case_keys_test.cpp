@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/case_keys.hpp"
+#include "piola/base/text.hpp"
 #include "piola/base/units.hpp"
+#include "piola/geometry/mesh.hpp"
+#include "piola/geometry/transformed_solid.hpp"
+#include "piola/setup/shapes.hpp"
 #include <gtest/gtest.h>
 #include <set>
 #include <stdexcept>
@@ -22,6 +26,25 @@ TEST(CaseKeys, EveryKeyBelongsToASectionAndIsListedOnce) {
   }
   for (SectionInfo const& section : case_sections()) EXPECT_FALSE(keys_of(section.name).empty()) << section.name;
   EXPECT_THROW(key_info("run", "nothing"), std::logic_error);
+}
+
+TEST(CaseKeys, OfShapesHaveTheDefaultsOfTheirMembers) {
+  auto const standard_of = [](std::string_view section, std::string_view key) {
+    return std::string(key_info(section, key).standard);
+  };
+  auto const word_of = [](std::string_view section, std::string_view key, auto choice) {
+    return in_quotes(key_info(section, key).words[static_cast<std::size_t>(choice)]);
+  };
+  ShapeSpec const shape;
+  EXPECT_EQ(standard_of("body.shape", "jitter"), exact_text(shape.jitter));
+  EXPECT_EQ(standard_of("body.shape", "seed"), std::to_string(shape.seed));
+  EXPECT_EQ(standard_of("body.shape.sphere", "arrangement"),
+            word_of("body.shape.sphere", "arrangement", shape.arrangement));
+  EXPECT_EQ(standard_of("body.shape.cylinder", "axis"), word_of("body.shape.cylinder", "axis", shape.axis));
+  geometry::MeshOptions const mesh;
+  EXPECT_EQ(standard_of("body.shape.mesh", "repair"), word_of("body.shape.mesh", "repair", mesh.repair));
+  EXPECT_NEAR(read_quantity(standard_of("body.shape.mesh", "feature_angle"), "rad").value, mesh.feature_angle, 1e-12);
+  EXPECT_EQ(standard_of("body.shape.transform", "scale"), exact_text(geometry::RigidTransform{}.scale));
 }
 
 TEST(CaseKeys, IntervalsAreSaidInWords) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages about invalid settings of AdapTLE, word for word.
+// Messages about invalid settings of AdapTLE: place, key, value, advice.
 #include "formulations/small_bodies.hpp"
 #include "materials/solid_samples.hpp"
 #include "support/key_words.hpp"

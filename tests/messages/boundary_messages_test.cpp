@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages about invalid supports, loads and mirrors, word for word.
+// Messages about invalid supports, loads and mirrors: place, key, value, advice.
 #include "support/key_words.hpp"
 #include "support/sample_case.hpp"
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages about invalid rigid shapes, contact rules and round bodies, word for word.
+// Messages about invalid rigid shapes, contact rules and round bodies: place, key, value, advice.
 #include "piola/formulations/registry.hpp"
 #include "support/key_words.hpp"
 #include "support/sample_case.hpp"

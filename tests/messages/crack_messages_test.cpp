@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages about invalid cracks and about probes of cracks, word for word.
+// Messages about invalid cracks and about probes of cracks: place, key, value, advice.
 #include "piola/formulations/registry.hpp"
 #include "support/key_words.hpp"
 #include "support/sample_case.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages about ties, word for word.
+// Messages about ties: place, key, value, advice.
 #include "piola/model/case_particles.hpp"
 #include "piola/simulation/build.hpp"
 #include "support/key_words.hpp"

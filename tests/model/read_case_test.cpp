@@ -172,7 +172,7 @@ labels = false
   EXPECT_NEAR(spec.output.pictures.roll, 5.729578, 1e-6);
   EXPECT_EQ(spec.output.pictures.zoom, 1.5);
   EXPECT_EQ(*spec.output.pictures.look_at, (std::array<double, 3>{0.001, 2, 0}));
-  EXPECT_EQ(spec.output.pictures.follow, "column");
+  EXPECT_EQ(spec.output.pictures.followed_body, "column");
   EXPECT_EQ(spec.output.pictures.map, Palette::magma);
   EXPECT_EQ(spec.output.pictures.theme, Theme::dark);
   EXPECT_FALSE(spec.output.pictures.labels);

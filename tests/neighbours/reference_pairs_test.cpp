@@ -289,7 +289,7 @@ TEST(ReferencePairs, OfTwoParticlesInABarAreEnoughForAGradient) {
 }
 
 TEST(ReferencePairs, MentionBothTheGradientAndTheLaplacian) {
-  // Two particles give a gradient, but linear and quadratic parts of the Laplacian cannot be told apart.
+  // Two particles give a gradient, but linear and quadratic parts of the Laplacian cannot be distinguished.
   ParticleSet const bar = unit_box(1, 2);
   std::string const text = refusal(bar, {find_kernel("cubic_spline"), 1.2, 1.2, 1, true});
   EXPECT_NE(text.find("corrected Laplacian"), std::string::npos) << text;

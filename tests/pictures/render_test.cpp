@@ -189,16 +189,16 @@ TEST(Render, TakesTheLookAskedFor) {
   d.options.look.emplace_back([](PictureSpec& p) { p.named_view = "above"; });
   EXPECT_NE(d.refusal().find("view: 'above' is not known (allowed: x, y, z, -x"), std::string::npos) << d.refusal();
   d.options.look = plain;
-  d.options.look.emplace_back([](PictureSpec& p) { p.follow = "nobody"; });
-  EXPECT_NE(d.refusal().find("follow: there is no body 'nobody'"), std::string::npos) << d.refusal();
+  d.options.look.emplace_back([](PictureSpec& p) { p.followed_body = "missing"; });
+  EXPECT_NE(d.refusal().find("follow: there is no body 'missing'"), std::string::npos) << d.refusal();
 }
 
 TEST(Render, RefusesWaysToDrawThatThereAreNot) {
   Drawn d;
   d.options.as = {"marbles"};
   EXPECT_TRUE(mentions(d.refusal(), {"--as:", "marbles", "auto, skin, balls, points, none", "choose"}));
-  d.options.as = {"nobody=skin"};
-  EXPECT_NE(d.refusal().find("--as: there is no body 'nobody'"), std::string::npos) << d.refusal();
+  d.options.as = {"missing=skin"};
+  EXPECT_NE(d.refusal().find("--as: there is no body 'missing'"), std::string::npos) << d.refusal();
 }
 
 TEST(Render, SaysWhenThereAreNoFrames) {

@@ -195,21 +195,21 @@ Eye eye_before(Camera const& camera, double angle, Point const& low, Point const
 }
 
 Eye eye_at(Camera const& camera, Subject const& now) {
-  PIOLA_EXPECTS(camera.follow < 0 || now.body.size() == now.points.size());
+  PIOLA_EXPECTS(camera.followed_body < 0 || now.body.size() == now.points.size());
   Eye eye = camera.eye;
-  if (eye.near() && camera.follow >= 0) eye.axis = centre_of(now, camera.follow);
+  if (eye.near() && camera.followed_body >= 0) eye.axis = centre_of(now, camera.followed_body);
   return eye;
 }
 
 void include(Window& window, Camera const& camera, Subject const& subject) {
-  PIOLA_EXPECTS(camera.follow < 0 || subject.body.size() == subject.points.size());
-  if (camera.follow < 0 && !camera.eye.near()) return window.include(camera.view, subject);
+  PIOLA_EXPECTS(camera.followed_body < 0 || subject.body.size() == subject.points.size());
+  if (camera.followed_body < 0 && !camera.eye.near()) return window.include(camera.view, subject);
   Eye const eye = eye_at(camera, subject);
-  Point const centre = camera.follow < 0 ? Point{} : centre_of(subject, camera.follow);
+  Point const centre = camera.followed_body < 0 ? Point{} : centre_of(subject, camera.followed_body);
   std::vector<Point> points;
   std::vector<double> volume;
   for (std::size_t i = 0; i < subject.points.size(); ++i) {
-    if (camera.follow >= 0 && subject.body[i] != camera.follow) continue;
+    if (camera.followed_body >= 0 && subject.body[i] != camera.followed_body) continue;
     points.push_back(minus(eye.seen(subject.points[i]), centre));
     volume.push_back(subject.volume.empty() ? 1 : subject.volume[i]);
   }
@@ -218,11 +218,11 @@ void include(Window& window, Camera const& camera, Subject const& subject) {
 
 Window shown_window(Window const& all, Camera const& camera, Subject const& now) {
   PIOLA_EXPECTS(camera.zoom > 0);
-  PIOLA_EXPECTS(camera.follow < 0 || now.body.size() == now.points.size());
+  PIOLA_EXPECTS(camera.followed_body < 0 || now.body.size() == now.points.size());
   auto const right = camera.view.right(), up = camera.view.up();
   double x = (all.x0 + all.x1) / 2, y = (all.y0 + all.y1) / 2;
-  if (camera.follow >= 0) {
-    Point const centre = centre_of(now, camera.follow);
+  if (camera.followed_body >= 0) {
+    Point const centre = centre_of(now, camera.followed_body);
     x += dot(centre, right);
     y += dot(centre, up);
   }

@@ -75,7 +75,7 @@ struct Camera {
   double zoom = 1;
   std::optional<std::array<double, 3>> look_at = {};  ///< point in the centre of the picture [m]
   Eye eye = {};
-  int follow = -1;  ///< number of the body that stays in the middle and fills the window; -1: none
+  int followed_body = -1;  ///< number of the body that stays in the middle and fills the window; -1: none
 };
 
 /// The eye from which the box of the bodies at the start has an angle [deg] over its diagonal; 0: parallel projection.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/bound_keys.hpp"
 #include <deque>
-#include <mutex>
 
 namespace piola {
 
@@ -12,14 +11,12 @@ std::string default_number(double value, std::string_view unit) {
 
 std::string_view kept_text(std::string text) {
   static std::deque<std::string> texts;  // never moves what it holds
-  static std::mutex mutex;
-  std::lock_guard const lock(mutex);
   return texts.emplace_back(std::move(text));
 }
 
 void read_limit(Section const& section, std::string_view key, double& limit, double off) {
   auto const value = section.find(key);
-  if (value && value->node.is_text() && value->node.text == "off")
+  if (value && value->node.is_text("off"))
     limit = off;
   else
     section.read(key, limit);

@@ -91,7 +91,7 @@ struct Limits {
 
 /// A number as a default: with its unit, unless that is clear.
 std::string default_number(double value, std::string_view unit);
-/// A view of a text that is kept until the program ends. Thread-safe.
+/// A view of a text that is kept until the program ends. Called only by the one thread that makes the table of keys.
 std::string_view kept_text(std::string text);
 /// Reads a number or the word "off".
 void read_limit(Section const& section, std::string_view key, double& limit, double off);

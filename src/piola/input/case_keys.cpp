@@ -68,8 +68,8 @@ constexpr std::array sections{
 
 std::vector<KeyInfo> joined_tables() {
   std::vector<KeyInfo> all;
-  for (auto const part : {keys_of_run(), keys_of_bodies(), keys_of_solids(), keys_of_regions(), keys_of_boundaries(),
-                          keys_of_observers(), keys_of_output()})
+  for (auto const& part : {keys_of_run(), keys_of_bodies(), keys_of_solids(), keys_of_regions(), keys_of_boundaries(),
+                           keys_of_observers(), keys_of_output()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

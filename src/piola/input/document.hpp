@@ -31,6 +31,7 @@ struct Node {
   bool is_array() const { return kind == Kind::array; }
   bool is_list_of_tables() const;  ///< not empty, nothing but tables: [[...]]
   bool is_text() const { return kind == Kind::text; }
+  bool is_text(std::string_view value) const { return is_text() && text == value; }
   bool is_number() const { return kind == Kind::integer || kind == Kind::real; }
   double number() const { return kind == Kind::integer ? static_cast<double>(integer) : real; }
 
@@ -45,6 +46,7 @@ struct Node::Entry {
   Node value;
 };
 
+/// A text without a place.
 Node text_node(std::string_view text);
 
 /// A spelling of the previous minor release that a case uses, as a warning.

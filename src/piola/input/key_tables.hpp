@@ -3,6 +3,7 @@
 #include "piola/input/case_keys.hpp"
 #include <array>
 #include <string_view>
+#include <vector>
 
 /// The keys of a case file, topic by topic, in the order of the manual.
 namespace piola {
@@ -17,12 +18,12 @@ inline constexpr Interval place_range{-1e15, 1e15, false, false};
 inline constexpr Interval length_range{1e-15, 1e15, false, false};
 inline constexpr Interval count_range{1, 2147483647, false, false};
 
-std::span<KeyInfo const> keys_of_run();         ///< run
-std::span<KeyInfo const> keys_of_bodies();      ///< top of the file, body
-std::span<KeyInfo const> keys_of_regions();     ///< body.part, region
-std::span<KeyInfo const> keys_of_solids();      ///< shapes that are solids, their parts and placing
-std::span<KeyInfo const> keys_of_boundaries();  ///< support, load, mirror, crack, rigid, contact, tie
-std::span<KeyInfo const> keys_of_observers();   ///< probe, quantity
-std::span<KeyInfo const> keys_of_output();      ///< output and its parts
+std::vector<KeyInfo> keys_of_run();         ///< run
+std::vector<KeyInfo> keys_of_bodies();      ///< top of the file, body
+std::vector<KeyInfo> keys_of_regions();     ///< body.part, region
+std::vector<KeyInfo> keys_of_solids();      ///< shapes that are solids, their parts and placing
+std::vector<KeyInfo> keys_of_boundaries();  ///< support, load, mirror, crack, rigid, contact, tie
+std::vector<KeyInfo> keys_of_observers();   ///< probe, quantity
+std::vector<KeyInfo> keys_of_output();      ///< output and its parts
 
 }  // namespace piola

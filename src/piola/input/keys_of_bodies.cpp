@@ -89,6 +89,6 @@ constexpr std::array body_keys{
 
 }  // namespace
 
-std::span<KeyInfo const> keys_of_bodies() { return body_keys; }
+std::vector<KeyInfo> keys_of_bodies() { return {body_keys.begin(), body_keys.end()}; }
 
 }  // namespace piola

@@ -211,15 +211,12 @@ std::span<ContactKey const> contact_keys() { return contact_rows; }
 std::span<FrictionKey const> friction_keys() { return friction_rows; }
 std::span<TieKey const> tie_keys() { return tie_rows; }
 
-std::span<KeyInfo const> keys_of_boundaries() {
-  static std::vector<KeyInfo> const keys = [] {
-    constexpr std::size_t before_friction = 3;
-    auto all =
-        joined_keys(support_keys(), load_keys(), mirror_keys(), rigid_keys(), contact_keys().first(before_friction),
-                    friction_keys(), contact_keys().subspan(before_friction), tie_keys());
-    all.insert(all.end(), crack_rows.begin(), crack_rows.end());
-    return all;
-  }();
+std::vector<KeyInfo> keys_of_boundaries() {
+  constexpr std::size_t before_friction = 3;
+  auto keys =
+      joined_keys(support_keys(), load_keys(), mirror_keys(), rigid_keys(), contact_keys().first(before_friction),
+                  friction_keys(), contact_keys().subspan(before_friction), tie_keys());
+  keys.insert(keys.end(), crack_rows.begin(), crack_rows.end());
   return keys;
 }
 

@@ -173,13 +173,10 @@ constexpr std::array quantity_rows{
 std::span<ProbeKey const> probe_keys() { return probe_rows; }
 std::span<BoundKey<QuantitySpec> const> quantity_keys() { return quantity_rows; }
 
-std::span<KeyInfo const> keys_of_observers() {
-  static std::vector<KeyInfo> const keys = [] {
-    std::vector<KeyInfo> all;
-    for (ProbeKey const& key : probe_keys()) add_keys(std::span(&key.row, 1), all);
-    add_keys(quantity_keys(), all);
-    return all;
-  }();
+std::vector<KeyInfo> keys_of_observers() {
+  std::vector<KeyInfo> keys;
+  for (ProbeKey const& key : probe_keys()) add_keys(std::span(&key.row, 1), keys);
+  add_keys(quantity_keys(), keys);
   return keys;
 }
 

@@ -174,10 +174,9 @@ std::span<CutKey const> cut_keys() {
   return rows;
 }
 
-std::span<KeyInfo const> keys_of_output() {
-  static std::vector<KeyInfo> const keys = joined_keys(output_keys(), pictures_keys().first(1), picture_keys(),
-                                                       pictures_keys().subspan(1), cut_keys(), panel_keys());
-  return keys;
+std::vector<KeyInfo> keys_of_output() {
+  return joined_keys(output_keys(), pictures_keys().first(1), picture_keys(), pictures_keys().subspan(1), cut_keys(),
+                     panel_keys());
 }
 
 }  // namespace piola

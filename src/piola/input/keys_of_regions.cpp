@@ -26,6 +26,6 @@ constexpr std::array region_keys{
 
 }  // namespace
 
-std::span<KeyInfo const> keys_of_regions() { return region_keys; }
+std::vector<KeyInfo> keys_of_regions() { return {region_keys.begin(), region_keys.end()}; }
 
 }  // namespace piola

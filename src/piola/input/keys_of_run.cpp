@@ -9,6 +9,7 @@ namespace {
 
 using enum KeyInfo::Kind;
 
+constexpr Interval open_unit{0, 1, true, true};
 constexpr std::array<std::string_view, 1> auto_word{"auto"}, off_word{"off"};
 constexpr std::array<std::string_view, 2> repartition_words{"auto", "never"};
 constexpr std::array<std::string_view, 4> instruction_set_words{"auto", "scalar", "v3", "v4"};
@@ -27,16 +28,10 @@ constexpr std::array run_rows{
             "dynamic relaxation: motion is taken out until the bodies are at rest, and the run ends there, at `end` at "
             "the latest"},
            fills<&RunSpec::relax>},
-    RunKey{{"run",
-            "relax_tolerance",
-            quantity,
-            "1",
-            {0, 1, true, true},
-            default_of_member,
+    RunKey{{"run", "relax_tolerance", quantity, "1", open_unit, default_of_member,
             "relax: tolerance; converged when the norm of unbalanced forces is below this fraction of its maximum in "
             "the run"},
-           fills<&RunSpec::relax_tolerance>,
-           true},
+           fills<&RunSpec::relax_tolerance>},
     RunKey{{"run", "max_step", quantity, "s", positive, "no bound", "largest step"}, fills<&RunSpec::max_step>},
     RunKey{{"run", "min_step", quantity, "s", not_negative, "1e-6 of the first step",
             "a smaller stable step stops the run as failed"},
@@ -103,9 +98,6 @@ constexpr std::array guard_rows{
 std::span<RunKey const> run_keys() { return run_rows; }
 std::span<GuardKey const> guard_keys() { return guard_rows; }
 
-std::span<KeyInfo const> keys_of_run() {
-  static std::vector<KeyInfo> const keys = joined_keys(run_keys(), guard_keys());
-  return keys;
-}
+std::vector<KeyInfo> keys_of_run() { return joined_keys(run_keys(), guard_keys()); }
 
 }  // namespace piola

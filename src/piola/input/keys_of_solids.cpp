@@ -7,7 +7,6 @@ namespace {
 
 using enum KeyInfo::Kind;
 
-constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 constexpr std::array<std::string_view, 2> filling_words{"packed", "lattice"};
 constexpr std::array<std::string_view, 4> repair_words{"none", "orient", "holes", "faces"};
 
@@ -16,7 +15,7 @@ struct SolidKey {
   std::string_view key, meaning;
   KeyInfo::Kind kind = table;
 };
-constexpr std::array solid_kinds{
+constexpr std::array solid_rows{
     SolidKey{"torus", "a ring of circular cross-section"},
     SolidKey{"cone", "a cone or a frustum"},
     SolidKey{"capsule", "all places within a radius of a line; 2D, too"},
@@ -30,8 +29,8 @@ constexpr std::array solid_kinds{
     SolidKey{"intersection", "a list of shapes: what is in all of them", list},
     SolidKey{"transform", "scales, turns and moves the shape, in this order"},
 };
-constexpr std::array plain_kinds{SolidKey{"box", "a box"}, SolidKey{"sphere", "a sphere or disc"},
-                                 SolidKey{"cylinder", "a cylinder"}};
+constexpr std::array plain_rows{SolidKey{"box", "a box"}, SolidKey{"sphere", "a sphere or disc"},
+                                SolidKey{"cylinder", "a cylinder"}};
 
 constexpr std::array parameters{
     KeyInfo{"body.shape", "arrangement", word, "", any_value,
@@ -54,14 +53,14 @@ constexpr std::array parameters{
     KeyInfo{"body.shape.torus", "centre", point, "m", place_range, "", "centre"},
     KeyInfo{"body.shape.torus", "radius", quantity, "m", length_range, "", "from the centre to that of the tube"},
     KeyInfo{"body.shape.torus", "tube_radius", quantity, "m", length_range, "", "radius of the tube"},
-    KeyInfo{"body.shape.torus", "axis", word, "", any_value, "\"z\"", "direction of its axis", axis_names},
+    KeyInfo{"body.shape.torus", "axis", word, "", any_value, "\"z\"", "direction of its axis", axis_words},
 
     KeyInfo{"body.shape.cone", "centre", point, "m", place_range, "", "centre of the lower end"},
     KeyInfo{"body.shape.cone", "radius", quantity, "m", not_negative, "", "radius at the lower end"},
     KeyInfo{"body.shape.cone", "end_radius", quantity, "m", not_negative, "0", "radius at the upper end"},
     KeyInfo{"body.shape.cone", "length", quantity, "m", length_range, "", "from the lower to the upper end"},
     KeyInfo{"body.shape.cone", "axis", word, "", any_value, "\"z\"", "direction from the lower to the upper end",
-            axis_names},
+            axis_words},
 
     KeyInfo{"body.shape.capsule", "from", point, "m", place_range, "", "beginning of the line"},
     KeyInfo{"body.shape.capsule", "to", point, "m", place_range, "", "end of the line"},
@@ -81,7 +80,7 @@ constexpr std::array parameters{
     KeyInfo{"body.shape.extrude", "to", quantity, "m", place_range, "2D", "3D: z at the upper end"},
 
     KeyInfo{"body.shape.revolve", "polygon", list, "", any_value, "", "corners [radius, height], in order"},
-    KeyInfo{"body.shape.revolve", "axis", word, "", any_value, "\"z\"", "axis through the origin", axis_names},
+    KeyInfo{"body.shape.revolve", "axis", word, "", any_value, "\"z\"", "axis through the origin", axis_words},
 
     KeyInfo{"body.shape.mesh", "file", text, "", any_value, "", "path from the case file: .stl, .obj or .ply"},
     KeyInfo{"body.shape.mesh", "unit", text, "", any_value, "",
@@ -105,23 +104,18 @@ constexpr std::array parameters{
     KeyInfo{"body.shape.rotate", "angle", quantity, "rad", place_range, "", "positive as a right-handed screw"},
 };
 
-std::vector<KeyInfo> solid_keys() {
-  std::vector<KeyInfo> all;
-  auto const add = [&](std::string_view section, SolidKey const& k) {
-    all.push_back({section, k.key, k.kind, "", {}, "none", k.meaning, {}});
-  };
-  for (SolidKey const& k : solid_kinds) add("body.shape", k);
-  for (SolidKey const& k : plain_kinds) add("body.shape.part", k);
-  for (SolidKey const& k : solid_kinds) add("body.shape.part", k);
-  all.insert(all.end(), parameters.begin(), parameters.end());
-  return all;
-}
-
 }  // namespace
 
-std::span<KeyInfo const> keys_of_solids() {
-  static std::vector<KeyInfo> const keys = solid_keys();
-  return keys;
+std::vector<KeyInfo> keys_of_solids() {
+  std::vector<KeyInfo> all;
+  auto const add = [&](std::string_view section, SolidKey const& k) {
+    all.push_back({section, k.key, k.kind, "", any_value, "none", k.meaning});
+  };
+  for (SolidKey const& k : solid_rows) add("body.shape", k);
+  for (SolidKey const& k : plain_rows) add("body.shape.part", k);
+  for (SolidKey const& k : solid_rows) add("body.shape.part", k);
+  all.insert(all.end(), parameters.begin(), parameters.end());
+  return all;
 }
 
 }  // namespace piola

@@ -118,7 +118,7 @@ Node* item_of(Node& array, std::string const& step, std::string const& where, Se
   }
   for (Node& item : array.items) {
     Node const* const name = item.find("name");
-    if (name != nullptr && name->is_text() && name->text == step) return &item;
+    if (name != nullptr && name->is_text(step)) return &item;
   }
   std::vector<std::string> const names = names_of(array);
   problems.add(setting.place, "no " + where + " has the name " + in_quotes(step) + " (" +

@@ -59,9 +59,9 @@ struct PictureSpec {
   double zoom = 1;
   double perspective = 0;                             ///< deg
   std::optional<std::array<double, 3>> look_at = {};  ///< m
-  std::string follow = {};                            ///< name of a body
-  int width = 0, height = 0;                          ///< pixels; 0: as what is shown needs it
-  double scale = 1;                                   ///< of that
+  std::string followed_body = {};                     ///< name of the body that stays in the middle; empty: none
+  int width = 0, height = 0;                          ///< pixels; 0: fitted to the content
+  double scale = 1;                                   ///< factor on a fitted width and height
   Theme theme = Theme::light;
   Palette map = Palette::automatic;
   bool labels = true;

@@ -34,8 +34,8 @@ void read_representations(Section const& pictures, std::span<BodySpec const> bod
 
 void read_cut(Section const& section, int dimension, Appearance& appearance) {
   CutPlane cut;
-  if (auto const point = read_components(section, "point", dimension)) cut.point = *point;
-  if (auto const normal = read_direction(section, "normal", dimension)) cut.normal = *normal;
+  read_components(section, "point", dimension, cut.point);
+  read_direction(section, "normal", dimension, cut.normal);
   read_members(section, cut_keys(), cut);
   section.refuse_unknown();
   appearance.cut = cut;

@@ -13,8 +13,6 @@ using Frame = Support::Frame;
 void read_fix(Section const& section, int dimension, SupportSpec& support) {
   std::string fix;
   if (!section.read("fix", fix)) return;
-  std::string const letters = std::string("xyz").substr(0, static_cast<std::size_t>(dimension));
-  std::string const is = "support.fix is " + in_quotes(fix);
   if (fix == "normal" || fix == "tangent") {
     support.frame = fix == "normal" ? Frame::normal : Frame::tangent;
     if (!section.has("normal"))
@@ -23,12 +21,11 @@ void read_fix(Section const& section, int dimension, SupportSpec& support) {
   }
   if (section.has("normal")) {
     section.problems().add(section.place_of("fix"),
-                           is + " (allowed with a normal: \"normal\", \"tangent\") - choose one, or remove normal");
+                           "support.fix is " + in_quotes(fix) +
+                               " (allowed with a normal: \"normal\", \"tangent\") - choose one, or remove normal");
     return;
   }
-  for (std::size_t d = 0; d < letters.size(); ++d) support.fix[d] = fix.find(letters[d]) != std::string::npos;
-  if (!fix.empty() && fix.size() <= 3 && fix.find_first_not_of(letters) == std::string::npos) return;
-  section.problems().add(section.place_of("fix"), is + " (allowed: one or more of the letters " + letters + ")");
+  support.fix = fixed_axes(section, fix, dimension);
 }
 
 /// The faces that a box of this dimension has.
@@ -145,19 +142,16 @@ SupportSpec read_support(Section const& section, std::vector<BodyNames> const& b
   int const dimension = body != nullptr ? body->dimension : 3;
   if (!section.has("patch") && !section.has("where"))
     section.report_missing("where\" or \"patch", "the particles that are held", "where = \"X < 1\"");
-  support.where =
-      section.has("where") ? section.formula("where", body != nullptr ? body->names : Names{}) : std::nullopt;
+  support.where = section.formula("where", body != nullptr ? body->names : Names{});
   if (body != nullptr && section.has("patch")) {
     support.patch = read_patch(section, *body);
     support.shape = body->shape;
   }
-  if (section.has("hold")) {
-    if (!section.has("patch")) section.refuse("hold", "is used only by a support on a patch");
-    if (int const word = section.word_index("hold"); word >= 0) support.hold = static_cast<SupportSpec::Hold>(word);
-  }
+  if (!section.has("patch")) section.refuse("hold", "is used only by a support on a patch");
+  if (int const word = section.word_index("hold"); word >= 0) support.hold = static_cast<SupportSpec::Hold>(word);
   read_fix(section, dimension, support);
   if (body != nullptr) {
-    if (auto const normal = read_direction(section, "normal", dimension)) support.normal = *normal;
+    read_direction(section, "normal", dimension, support.normal);
     support.velocity = read_vector(section, "velocity", *body);
   }
   section.refuse_unknown();
@@ -209,8 +203,8 @@ CrackSpec read_crack(Section const& section, std::vector<BodyNames> const& bodie
                                                          " (allowed: boxes in 2D) - remove the crack");
   }
   int const dimension = body != nullptr ? body->dimension : 2;
-  if (auto const from = read_components(section, "from", dimension)) crack.from = *from;
-  if (auto const to = read_components(section, "to", dimension)) crack.to = *to;
+  read_components(section, "from", dimension, crack.from);
+  read_components(section, "to", dimension, crack.to);
   section.refuse_unknown();
   crack.places = places_of(section, {"body", "from", "to"});
   return crack;

@@ -45,7 +45,7 @@ void refuse_friction(Section const& section, bool refused, std::string const& la
 
 ContactSpec read_whole(Section const& section, int dimension) {
   ContactSpec contact;
-  read_members(section, contact_keys().first(1), contact);  // law
+  read_members(section, contact_keys(), contact);
   Law const law = contact.law;
   std::string const all = "\"kernel\", \"linear\", \"published\" or \"surface\"";
   for (char const* key : {"scale", "self"}) refuse_for(section, key, law == Law::none, all);
@@ -53,7 +53,6 @@ ContactSpec read_whole(Section const& section, int dimension) {
   refuse_for(section, "stiffness", law != Law::as_published, "\"published\"");
   refuse_for(section, "closing_speed", law != Law::kernel, "\"kernel\"");
   refuse_for(section, "exponent", law != Law::kernel && law != Law::as_published, "\"kernel\" or \"published\"");
-  read_members(section, contact_keys().subspan(1), contact);
   read_stiffness(section, dimension, contact);
   if (law != Law::none) read_friction(section, contact.friction);
   section.refuse_unknown();
@@ -65,6 +64,7 @@ ContactSpec read_whole(Section const& section, int dimension) {
 /// Missing values of a pair are those of [contact].
 ContactPairSpec read_pair(Section const& section, ContactRule const& whole) {
   ContactPairSpec pair;
+  pair.scale = whole.scale;
   pair.friction = whole.friction;
   if (whole.law == Law::none)
     section.problems().add(section.place(),
@@ -75,8 +75,8 @@ ContactPairSpec read_pair(Section const& section, ContactRule const& whole) {
       for (std::size_t k = 0; k < 2; ++k)
         if (auto const name = read_text((*items)[k], section.problems())) pair.between[k] = *name;
   ContactSpec own;
-  own.scale = whole.scale;
-  read_members(section, contact_keys().first(1), own);  // law
+  ContactKey const& law_key = contact_keys().front();
+  read_member(section, law_key, own);
   Law const law = own.law;
   if (law != Law::kernel && law != Law::none)
     section.problems().add(
@@ -89,8 +89,7 @@ ContactPairSpec read_pair(Section const& section, ContactRule const& whole) {
   std::string const all = "\"kernel\"";
   refuse_for(section, "scale", law == Law::none, all);
   refuse_friction(section, law == Law::none, all);
-  read_members(section, contact_keys().subspan(1, 1), own);  // scale
-  pair.scale = own.scale;
+  section.read("scale", pair.scale);
   if (!pair.off) read_friction(section, pair.friction);
   section.refuse_unknown();
   pair.places = places_of(section, {"between", "law", "scale", "friction"});
@@ -104,7 +103,7 @@ void refuse_second(Section const& section, std::string const& what) {
 }  // namespace
 
 void read_contact(Value const& value, int dimension, Problems& problems, CaseSpec& spec) {
-  if (value.node.is_text() && value.node.text == "none") {
+  if (value.node.is_text("none")) {
     spec.contact.emplace();
     spec.contact->law = Law::none;
     spec.contact->places = {{"", value.node.place}, {"law", value.node.place}};

@@ -29,17 +29,12 @@ PartSpec read_part(Section const& section, BodyNames const& body, std::vector<Re
                                  " depends on t (allowed: X, Y, Z, regions and constants) - a "
                                  "part stays what it is");
   }
-  if (auto const value = section.find("material")) {
-    if (value->node.is_table()) {
-      BodySpec of;
-      read_material(Section(value->node, "body.material", section.problems()), library, of);
-      part.material = of.material;
-      part.law = of.law;
-      part.places = of.places;
-    } else {
-      section.problems().add(value->node.place, value->name + " is " + shown(value->node) +
-                                                    " (allowed: a table) - write material = { ... }");
-    }
+  if (auto const material = table_with_keys(section, "material", "body.material")) {
+    BodySpec of;
+    read_material(*material, library, of);
+    part.material = of.material;
+    part.law = of.law;
+    part.places = of.places;
   }
   section.refuse_unknown();
   part.places.merge(places_of(section, {"where", "material"}));
@@ -51,19 +46,10 @@ PartSpec read_part(Section const& section, BodyNames const& body, std::vector<Re
 std::vector<PartSpec> read_parts(Section const& section, BodyNames const& body, std::vector<RegionSpec> const& regions,
                                  CaseLibrary const& library) {
   std::vector<PartSpec> parts;
-  auto const value = section.find("part");
-  if (!value) return parts;
   constexpr std::size_t most = 100;
-  auto const items = read_list(*value, 1, most, section.problems());
-  for (std::size_t k = 0; items && k < items->size(); ++k) {
-    Value const& item = (*items)[k];
-    if (!item.node.is_table()) {
-      section.problems().add(item.node.place,
-                             item.name + " is " + shown(item.node) + " (allowed: a table) - write [[body.part]]");
-      continue;
-    }
-    parts.push_back(read_part(Section(item.node, "body.part", section.problems()), body, regions, library));
-    if (parts.back().name.empty()) parts.back().name = "part_" + std::to_string(k + 1);
+  for (Section const& table : tables_in(section, "part", most)) {
+    parts.push_back(read_part(table, body, regions, library));
+    if (parts.back().name.empty()) parts.back().name = "part_" + std::to_string(parts.size());
   }
   return parts;
 }

@@ -70,7 +70,7 @@ void read_centre(Section const& section, PictureSpec& picture, std::span<BodySpe
   for (BodySpec const& body : bodies)
     if (!body.name.empty()) known.push_back(body.name);
   if (auto const body = section.find("follow"))
-    if (auto const word = read_word(*body, known, section.problems())) picture.follow = *word;
+    if (auto const word = read_word(*body, known, section.problems())) picture.followed_body = *word;
 }
 
 void check_component(Section const& section, PictureSpec const& picture) {
@@ -118,16 +118,7 @@ void read_picture(Section const& section, std::span<PictureKey const> keys, std:
 
 void read_panels(Section const& section, PicturesSpec& pictures, std::span<BodySpec const> bodies) {
   constexpr std::size_t most = 16;
-  auto const value = section.find("panel");
-  auto const items = value ? read_list(*value, 1, most, section.problems()) : std::nullopt;
-  for (std::size_t k = 0; items && k < items->size(); ++k) {
-    Value const& item = (*items)[k];
-    if (!item.node.is_table()) {
-      section.problems().add(item.node.place, item.name + " is " + shown(item.node) +
-                                                  " (allowed: a table) - write [[output.pictures.panel]]");
-      continue;
-    }
-    Section const panel(item.node, "output.pictures.panel", section.problems());
+  for (Section const& panel : tables_in(section, "panel", most)) {
     pictures.panels.push_back(static_cast<PictureSpec const&>(pictures));
     read_picture(panel, panel_keys(), bodies, pictures.panels.back());
     panel.refuse_unknown();

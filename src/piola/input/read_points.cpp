@@ -22,8 +22,7 @@ ShapeSpec read_points_shape(Section const& section) {
   bool const given = points->read("file", file);
   points->read("body", options.body);
   points->read("group", options.group);
-  if (points->has("unit"))
-    if (auto const length = read_length_unit(*points)) options.length_unit = *length;
+  if (auto const length = read_length_unit(*points)) options.length_unit = *length;
   double volume = 0;
   if (points->read("volume", volume)) options.total_volume = volume;
   points->refuse_unknown();

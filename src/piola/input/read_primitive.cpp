@@ -14,6 +14,7 @@
 #include <numbers>
 
 namespace piola {
+
 Vec<3> first_three(std::vector<double> const& numbers) {
   Vec<3> v;
   for (std::size_t c = 0; c < std::min<std::size_t>(3, numbers.size()); ++c) v[static_cast<int>(c)] = numbers[c];
@@ -74,10 +75,7 @@ SolidPtr read_torus(Section const& section) {
   section.read("tube_radius", tube);
   Vec<3> const axis = axis_of(section);
   section.refuse_unknown();
-  if (tube > 0 && radius > 0 && tube >= radius)
-    section.problems().add(section.place_of("tube_radius"),
-                           section.name_of("tube_radius") + " is " + number_text(tube) +
-                               " m (allowed: below radius, which is " + number_text(radius) + " m)");
+  check_below_radius(section, "tube_radius", tube, radius);
   return centre ? geometry::torus(*centre, axis, radius, tube) : nullptr;
 }
 
@@ -189,7 +187,7 @@ SolidPtr read_extruded(Section const& section) {
   std::vector<std::vector<Vec<2>>> polygons;
   auto const outline = section.find("polygon");
   if (outline) polygons.push_back(read_polygon(*outline, false, section.problems()));
-  if (auto const holes = section.has("holes") ? section.find("holes") : std::nullopt)
+  if (auto const holes = section.find("holes"))
     if (auto const items = read_list(*holes, 1, 1000, section.problems()))
       for (Value const& item : *items) polygons.push_back(read_polygon(item, false, section.problems()));
   double from = 0, to = 0;

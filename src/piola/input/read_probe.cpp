@@ -55,8 +55,8 @@ bool fits(Section const& section, Kind kind, int dimension) {
 void read_at(Section const& section, std::string_view about, int dimension, ProbeSpec& probe) {
   if (!section.has("at"))
     section.report_missing("at", about, "at = [\"0 m\", ...]");
-  else if (auto const at = read_components(section, "at", dimension))
-    probe.at = *at;
+  else
+    read_components(section, "at", dimension, probe.at);
 }
 
 void read_line(Section const& section, int dimension, ProbeSpec& probe) {
@@ -129,10 +129,9 @@ void read_comparison(Section const& section, Names const& names, ProbeSpec& prob
   if (formulas) probe.reference = std::move(*formulas);
 }
 
-/// The range ahead of a crack tip that the kind "stress_intensity" evaluates.
-void check_ahead(Section const& section, ProbeSpec& probe) {
-  int const dimension = info_of(probe.kind).dimension;
-  if (auto const direction = read_direction(section, "direction", dimension)) probe.direction = *direction;
+/// Reads the direction of the range ahead of a crack tip that the kind "stress_intensity" evaluates.
+void read_ahead(Section const& section, ProbeSpec& probe) {
+  read_direction(section, "direction", info_of(probe.kind).dimension, probe.direction);
   if (section.has("from")) check_order(section, {"from", probe.from}, {"to", probe.to}, "m");
 }
 
@@ -187,7 +186,7 @@ ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodie
     else
       read_keys_of_kind(section, probe);
     if (probe.kind == Kind::error) read_comparison(section, body != nullptr ? body->names : Names{}, probe);
-    if (probe.kind == Kind::stress_intensity) check_ahead(section, probe);
+    if (probe.kind == Kind::stress_intensity) read_ahead(section, probe);
     if (body != nullptr) check_axis(section, body->dimension, probe);
   }
   read_quantities(section, probe);

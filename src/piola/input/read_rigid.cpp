@@ -7,17 +7,13 @@
 namespace piola {
 namespace {
 
-void read_point(Section const& section, std::string_view key, int dimension, std::array<double, 3>& target) {
-  if (auto const point = read_components(section, key, dimension)) target = *point;
-}
-
 void read_plane(Section const& section, int dimension, RigidSpec& shape) {
-  read_point(section, "point", dimension, shape.centre);
-  if (auto const normal = read_direction(section, "normal", dimension)) shape.axis = *normal;
+  read_components(section, "point", dimension, shape.centre);
+  read_direction(section, "normal", dimension, shape.axis);
 }
 
 void read_sphere(Section const& section, int dimension, RigidSpec& shape) {
-  read_point(section, "centre", dimension, shape.centre);
+  read_components(section, "centre", dimension, shape.centre);
   read_members(section, rigid_keys(), shape);
 }
 
@@ -28,29 +24,31 @@ void read_cylinder(Section const& section, int dimension, RigidSpec& shape) {
     return;
   }
   read_sphere(section, dimension, shape);
-  if (auto const axis = read_direction(section, "axis", dimension)) shape.axis = *axis;
+  read_direction(section, "axis", dimension, shape.axis);
   double length = 0;
   if (section.read("length", length)) shape.half_lengths[0] = length / 2;
 }
 
 void read_corners(Section const& section, int dimension, RigidSpec& shape) {
-  auto const min = read_components(section, "min", dimension), max = read_components(section, "max", dimension);
-  if (!min || !max) return;
+  std::array<double, 3> min{}, max{};
+  bool const low = read_components(section, "min", dimension, min);
+  bool const high = read_components(section, "max", dimension, max);
+  if (!low || !high) return;
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
-    shape.centre[d] = ((*min)[d] + (*max)[d]) / 2;
-    shape.half_lengths[d] = ((*max)[d] - (*min)[d]) / 2;
+    shape.centre[d] = (min[d] + max[d]) / 2;
+    shape.half_lengths[d] = (max[d] - min[d]) / 2;
     if (shape.half_lengths[d] > 0) continue;
     section.problems().add(section.place_of("max"), "rigid.box.max[" + std::to_string(d) + "] is " +
-                                                        number_text((*max)[d]) + " m (allowed: above min, which is " +
-                                                        number_text((*min)[d]) + " m)");
+                                                        number_text(max[d]) + " m (allowed: above min, which is " +
+                                                        number_text(min[d]) + " m)");
   }
 }
 
 void read_edges(Section const& section, int dimension, RigidSpec& shape) {
-  read_point(section, "centre", dimension, shape.centre);
-  auto const lengths = read_components(section, "lengths", dimension);
-  for (std::size_t d = 0; lengths && d < static_cast<std::size_t>(dimension); ++d)
-    shape.half_lengths[d] = (*lengths)[d] / 2;
+  read_components(section, "centre", dimension, shape.centre);
+  std::array<double, 3> lengths{};
+  if (!read_components(section, "lengths", dimension, lengths)) return;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) shape.half_lengths[d] = lengths[d] / 2;
 }
 
 // A box is given by its corners, or by its middle and its edges.

@@ -71,16 +71,6 @@ void read_mass(Section const& section, int dimension, RigidSpec& rigid) {
   if (density && section.read("density", rho)) rigid.mass = rho * volume_of(rigid, dimension);
 }
 
-void read_fix(Section const& section, int dimension, RigidSpec& rigid) {
-  std::string fix;
-  if (!section.read("fix", fix)) return;
-  std::string const letters = std::string("xyz").substr(0, static_cast<std::size_t>(dimension));
-  for (std::size_t d = 0; d < letters.size(); ++d) rigid.held[d] = fix.find(letters[d]) != std::string::npos;
-  if (!fix.empty() && fix.size() <= 3 && fix.find_first_not_of(letters) == std::string::npos) return;
-  section.problems().add(section.place_of("fix"), section.name_of("fix") + " is " + in_quotes(fix) +
-                                                      " (allowed: one or more of the letters " + letters + ")");
-}
-
 void read_free(Section const& section, BodyNames const& names, RigidSpec& rigid) {
   rigid.free = true;
   if (rigid.kind == RigidShape::Kind::plane && section.has("plane"))
@@ -95,7 +85,7 @@ void read_free(Section const& section, BodyNames const& names, RigidSpec& rigid)
   refuse_variables(section, "angular_velocity", rigid.angular_velocity, true);
   if (auto gravity = read_vector(section, "gravity", names)) rigid.gravity = std::move(*gravity);
   refuse_variables(section, "gravity", rigid.gravity, false);
-  read_fix(section, names.dimension, rigid);
+  if (std::string fix; section.read("fix", fix)) rigid.held = fixed_axes(section, fix, names.dimension);
   section.read("turns", rigid.can_turn);
   if (!rigid.can_turn)
     for (char const* key : {"angular_velocity", "inertia"}) section.refuse(key, "has no meaning with turns = false");

@@ -14,7 +14,7 @@ namespace {
 
 void read_threads(Section const& section, RunSpec& run) {
   auto const value = section.find("threads");
-  if (!value || (value->node.is_text() && value->node.text == "auto")) return;
+  if (!value || value->node.is_text("auto")) return;
   if (value->node.is_text()) {
     section.problems().add(value->node.place, "run.threads is " + in_quotes(value->node.text) +
                                                   " (allowed: \"auto\" or a whole number from 1 to 4096)");
@@ -25,8 +25,8 @@ void read_threads(Section const& section, RunSpec& run) {
 
 void read_repartition(Section const& section, RunSpec& run) {
   auto const value = section.find("repartition");
-  if (!value || (value->node.is_text() && value->node.text == "auto")) return;
-  if (value->node.is_text() && value->node.text == "never") {
+  if (!value || value->node.is_text("auto")) return;
+  if (value->node.is_text("never")) {
     run.repartition.never = true;
   } else if (value->node.kind == Node::Kind::integer && value->node.integer > 0 &&
              value->node.integer <= std::numeric_limits<int>::max()) {
@@ -40,7 +40,7 @@ void read_repartition(Section const& section, RunSpec& run) {
 void read_jacobian(Section const& section, GuardLimits& limits) {
   auto const value = section.find("jacobian");
   if (!value) return;
-  if (value->node.is_text() && value->node.text == "off") {
+  if (value->node.is_text("off")) {
     limits.jacobian = {0, GuardLimits::never};
     return;
   }
@@ -57,7 +57,7 @@ void read_jacobian(Section const& section, GuardLimits& limits) {
 
 void read_guards(Section const& run, GuardLimits& limits) {
   Node const* const node = run.node().find("guards");
-  if (node != nullptr && node->is_text() && node->text == "off") {
+  if (node != nullptr && node->is_text("off")) {
     limits.on = false;
     return;
   }
@@ -93,7 +93,6 @@ std::vector<std::string> known_fields() {
 void read_run(Section const& section, RunSpec& run) {
   read_members(section, run_keys(), run);
   if (!run.relax) section.refuse("relax_tolerance", "is used only with relax = true");
-  section.read("relax_tolerance", run.relax_tolerance);
   read_threads(section, run);
   read_repartition(section, run);
   read_guards(section, run.guards);

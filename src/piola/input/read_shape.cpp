@@ -14,9 +14,14 @@ void set_point(std::vector<double> const& numbers, std::array<double, 3>& target
   for (std::size_t d = 0; d < numbers.size(); ++d) target[d] = numbers[d];
 }
 
-int axis_number(std::string_view word) { return word == "x" ? 0 : word == "y" ? 1 : 2; }
-
 }  // namespace
+
+void check_below_radius(Section const& section, std::string_view key, double value, double radius) {
+  if (!(value > 0) || !(radius > 0) || value < radius) return;
+  section.problems().add(section.place_of(key), section.name_of(key) + " is " + number_text(value) +
+                                                    " m (allowed: below radius, which is " + number_text(radius) +
+                                                    " m)");
+}
 
 void read_box(Section const& section, ShapeSpec& shape) {
   auto const min = section.point("min"), max = section.point("max");
@@ -42,17 +47,15 @@ void read_box(Section const& section, ShapeSpec& shape) {
 
 namespace {
 
-void read_inner_radius(Section const& section, ShapeSpec& shape) {
-  if (!section.read("inner_radius", shape.inner_radius) || !(shape.radius > 0) || shape.inner_radius < shape.radius)
-    return;
-  section.problems().add(section.place_of("inner_radius"),
-                         section.name_of("inner_radius") + " is " + number_text(shape.inner_radius) +
-                             " m (allowed: below radius, which is " + number_text(shape.radius) + " m)");
+void read_radii(Section const& section, ShapeSpec& shape) {
+  section.read("radius", shape.radius);
+  section.read("inner_radius", shape.inner_radius);
+  check_below_radius(section, "inner_radius", shape.inner_radius, shape.radius);
 }
 
 void read_arrangement(Section const& section, ShapeSpec& shape) {
   int const word = section.word_index("arrangement");
-  if (word <= 0 || word >= static_cast<int>(section.info_of("arrangement").words.size())) return;
+  if (word <= 0) return;
   std::string const is = section.name_of("arrangement") + " is " +
                          in_quotes(section.info_of("arrangement").words[static_cast<std::size_t>(word)]);
   shape.arrangement = static_cast<ShapeSpec::Arrangement>(word);
@@ -72,8 +75,7 @@ void read_sphere(Section const& section, ShapeSpec& shape) {
     shape.dimension = static_cast<int>(centre->size());
     set_point(*centre, shape.centre);
   }
-  section.read("radius", shape.radius);
-  read_inner_radius(section, shape);
+  read_radii(section, shape);
   read_arrangement(section, shape);
   if (shape.dimension == 1) section.refuse("inner_radius", "is used only in 2D and 3D");
   section.refuse_unknown();
@@ -88,12 +90,9 @@ void read_cylinder(Section const& section, ShapeSpec& shape) {
                                  " components (allowed: 3) - a cylinder in 2D is a sphere or a box");
     }
   }
-  section.read("radius", shape.radius);
-  read_inner_radius(section, shape);
+  read_radii(section, shape);
   section.read("length", shape.length);
-  std::string axis = "z";
-  section.read("axis", axis);
-  shape.axis = axis_number(axis);
+  if (int const axis = section.word_index("axis"); axis >= 0) shape.axis = axis;
   section.refuse_unknown();
 }
 

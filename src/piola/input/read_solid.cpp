@@ -7,6 +7,7 @@
 #include "piola/geometry/patch_measures.hpp"
 #include "piola/geometry/transformed_solid.hpp"
 #include "piola/input/case_files.hpp"
+#include "piola/input/sections.hpp"
 #include "piola/setup/packed_bodies.hpp"
 #include <algorithm>
 #include <array>
@@ -47,19 +48,9 @@ class SolidReader {
   }
 
  private:
-  /// A table within a shape or a part; its keys are those of body.shape.KEY.
-  static std::optional<Section> inner(Section const& node, std::string_view key) {
-    auto const value = node.find(key);
-    if (!value) return {};
-    if (value->node.is_table()) return Section(value->node, "body.shape." + std::string(key), node.problems());
-    node.problems().add(value->node.place, value->name + " is " + shown(value->node) + " (allowed: a table) - write " +
-                                               std::string(key) + " = { ... }");
-    return {};
-  }
-
   SolidPtr read_kind(Section const& node, std::string_view kind) const {
     if (kind == "union" || kind == "difference" || kind == "intersection") return read_parts(node, kind);
-    auto const section = inner(node, kind);
+    auto const section = table_with_keys(node, kind, "body.shape." + std::string(kind));
     if (!section) return nullptr;
     std::size_t const before = node.problems().count();
     SolidPtr solid = kind == "mesh" ? read_surface(*section) : read_primitive(*section, kind, names_, spacing_);
@@ -124,20 +115,18 @@ class SolidReader {
 
   /// Applies `transform`.
   static SolidPtr placed_by(Section const& node, SolidPtr solid) {
-    auto const section = node.has("transform") ? inner(node, "transform") : std::nullopt;
+    auto const section = table_with_keys(node, "transform", "body.shape.transform");
     if (!section) return solid;
     std::size_t const before = node.problems().count();
     geometry::RigidTransform placing;
     section->read("scale", placing.scale);
     if (section->has("rotate")) read_turns(*section, solid->dimension(), placing);
-    if (section->has("move")) {
-      if (auto const move = section->point("move")) {
-        if (static_cast<int>(move->size()) != solid->dimension())
-          node.problems().add(section->place_of("move"),
-                              section->name_of("move") + " has " + std::to_string(move->size()) +
-                                  " components (allowed: " + std::to_string(solid->dimension()) + ")");
-        placing.move = first_three(*move);
-      }
+    if (auto const move = section->point("move")) {
+      if (static_cast<int>(move->size()) != solid->dimension())
+        node.problems().add(section->place_of("move"),
+                            section->name_of("move") + " has " + std::to_string(move->size()) +
+                                " components (allowed: " + std::to_string(solid->dimension()) + ")");
+      placing.move = first_three(*move);
     }
     section->refuse_unknown();
     return node.problems().count() == before ? geometry::placed(std::move(solid), placing) : nullptr;
@@ -160,8 +149,7 @@ class SolidReader {
       Section const one(*turn, "body.shape.rotate", section.problems());
       Vec<3> axis{{0, 0, 1}};
       if (dimension == 2) one.refuse("axis", "is used only in 3D");
-      if (one.has("axis"))
-        if (auto const given = one.point("axis")) axis = first_three(*given);
+      if (auto const given = one.point("axis")) axis = first_three(*given);
       double angle = 0;
       one.read("angle", angle);
       one.refuse_unknown();

@@ -33,6 +33,9 @@ geometry::SolidPtr read_primitive(Section const& section, std::string_view kind,
 /// Up to three numbers as a vector; zero for those that are missing.
 Vec<3> first_three(std::vector<double> const& numbers);
 
+/// Reports the radius `value` of a hole or a tube unless it is below `radius`; 0: not given.
+void check_below_radius(Section const& section, std::string_view key, double value, double radius);
+
 /// Parts that shapes of both kinds read, internal to input/.
 void read_box(Section const& section, ShapeSpec& shape);
 void read_sphere(Section const& section, ShapeSpec& shape);

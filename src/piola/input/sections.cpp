@@ -43,31 +43,64 @@ std::optional<std::array<Expression, 3>> read_vector(Section const& section, std
   return vector;
 }
 
-std::optional<std::array<double, 3>> read_components(Section const& section, std::string_view key, int dimension) {
+bool read_components(Section const& section, std::string_view key, int dimension, std::array<double, 3>& target) {
   auto const numbers = section.point(key);
-  if (!numbers) return std::nullopt;
+  if (!numbers) return false;
   if (static_cast<int>(numbers->size()) != dimension) {
     section.problems().add(section.place_of(key), section.name_of(key) + " has " + std::to_string(numbers->size()) +
                                                       " components (allowed: " + std::to_string(dimension) +
                                                       ", the dimension of the body)");
-    return std::nullopt;
+    return false;
   }
-  std::array<double, 3> components{};
-  std::copy(numbers->begin(), numbers->end(), components.begin());
-  return components;
+  target = {};
+  std::copy(numbers->begin(), numbers->end(), target.begin());
+  return true;
 }
 
-std::optional<std::array<double, 3>> read_direction(Section const& section, std::string_view key, int dimension) {
-  auto direction = read_components(section, key, dimension);
-  if (!direction) return std::nullopt;
-  double const length = std::hypot((*direction)[0], (*direction)[1], (*direction)[2]);
+bool read_direction(Section const& section, std::string_view key, int dimension, std::array<double, 3>& target) {
+  std::array<double, 3> direction{};
+  if (!read_components(section, key, dimension, direction)) return false;
+  double const length = std::hypot(direction[0], direction[1], direction[2]);
   if (!(length > 0)) {
     section.problems().add(section.place_of(key),
                            section.name_of(key) + " is zero (allowed: any other length) - give a direction");
-    return std::nullopt;
+    return false;
   }
-  for (double& component : *direction) component /= length;
-  return direction;
+  for (std::size_t d = 0; d < 3; ++d) target[d] = direction[d] / length;
+  return true;
+}
+
+std::array<bool, 3> fixed_axes(Section const& section, std::string const& fix, int dimension) {
+  std::string const letters = std::string("xyz").substr(0, static_cast<std::size_t>(dimension));
+  std::array<bool, 3> fixed{};
+  for (std::size_t d = 0; d < letters.size(); ++d) fixed[d] = fix.find(letters[d]) != std::string::npos;
+  if (fix.empty() || fix.size() > 3 || fix.find_first_not_of(letters) != std::string::npos)
+    section.problems().add(section.place_of("fix"), section.name_of("fix") + " is " + in_quotes(fix) +
+                                                        " (allowed: one or more of the letters " + letters + ")");
+  return fixed;
+}
+
+std::optional<Section> table_with_keys(Section const& section, std::string_view key, std::string keys) {
+  auto const value = section.find(key);
+  if (!value) return {};
+  if (value->node.is_table()) return Section(value->node, std::move(keys), section.problems());
+  section.problems().add(value->node.place, value->name + " is " + shown(value->node) + " (allowed: a table) - write " +
+                                                std::string(key) + " = { ... }");
+  return {};
+}
+
+std::vector<Section> tables_in(Section const& section, std::string_view key, std::size_t most) {
+  std::vector<Section> tables;
+  auto const value = section.find(key);
+  auto const items = value ? read_list(*value, 1, most, section.problems()) : std::nullopt;
+  if (!items) return tables;
+  for (Value const& item : *items)
+    if (item.node.is_table())
+      tables.emplace_back(item.node, value->name, section.problems());
+    else
+      section.problems().add(item.node.place, item.name + " is " + shown(item.node) + " (allowed: a table) - write [[" +
+                                                  value->name + "]]");
+  return tables;
 }
 
 void check_order(Section const& section, std::pair<std::string_view, double> low,

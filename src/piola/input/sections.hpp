@@ -32,10 +32,16 @@ std::optional<std::array<Expression, 3>> read_vector(Section const& section, std
                                                      BodyNames const& body);
 std::optional<std::vector<Expression>> read_formulas(Value const& value, std::string_view unit, std::size_t count,
                                                      Names const& names, Problems& problems);
-/// A point or a direction with as many components as the body has.
-std::optional<std::array<double, 3>> read_components(Section const& section, std::string_view key, int dimension);
+/// Reads a point with as many components as the body has. The target of a missing or wrong one stays as it is.
+bool read_components(Section const& section, std::string_view key, int dimension, std::array<double, 3>& target);
 /// As read_components(), normalised to a unit vector.
-std::optional<std::array<double, 3>> read_direction(Section const& section, std::string_view key, int dimension);
+bool read_direction(Section const& section, std::string_view key, int dimension, std::array<double, 3>& target);
+/// The directions that the letters of the key `fix` name; a problem if there are other letters or none.
+std::array<bool, 3> fixed_axes(Section const& section, std::string const& fix, int dimension);
+/// A sub-table whose keys are those of the section `keys`; nothing (and a problem) if it is no table.
+std::optional<Section> table_with_keys(Section const& section, std::string_view key, std::string keys);
+/// The tables of a list of 1 to `most`, such as [[body.part]]. Items that are no tables are problems.
+std::vector<Section> tables_in(Section const& section, std::string_view key, std::size_t most);
 /// Reports the second of two keys if it is given and below the first: key, value.
 void check_order(Section const& section, std::pair<std::string_view, double> low,
                  std::pair<std::string_view, double> high, std::string_view unit);

@@ -189,7 +189,7 @@ void FramePictures::add(std::filesystem::path const& frame, std::size_t number) 
   for (std::size_t k = 0; k < views_.size(); ++k) {
     PanelView& view = views_[k];
     include(view.window, view.camera, subject(shot, k));
-    if (view.camera.follow < 0) show_shapes(view.window, view.camera.view, shot.shapes, stage_);
+    if (view.camera.followed_body < 0) show_shapes(view.window, view.camera.view, shot.shapes, stage_);
     view.spread.include(shot.panels[k].values);
   }
   frames_.push_back(std::move(entry));

@@ -24,16 +24,16 @@ Camera camera_of(PictureSpec const& picture, Up up, std::span<BodySpec const> bo
     camera.view.elevation = (*named)[1];
   }
   camera.view = camera.view.in(dimension);
-  if (picture.follow.empty()) return camera;
-  auto const body =
-      std::find_if(bodies.begin(), bodies.end(), [&](BodySpec const& one) { return one.name == picture.follow; });
+  if (picture.followed_body.empty()) return camera;
+  auto const body = std::find_if(bodies.begin(), bodies.end(),
+                                 [&](BodySpec const& one) { return one.name == picture.followed_body; });
   if (body == bodies.end()) {
     std::vector<std::string> names;
     for (BodySpec const& one : bodies) names.push_back(one.name);
-    throw InputError(fmt::format("follow: there is no body '{}' (allowed: {}) - choose one of these", picture.follow,
-                                 fmt::join(names, ", ")));
+    throw InputError(fmt::format("follow: there is no body '{}' (allowed: {}) - choose one of these",
+                                 picture.followed_body, fmt::join(names, ", ")));
   }
-  camera.follow = static_cast<int>(body - bodies.begin());
+  camera.followed_body = static_cast<int>(body - bodies.begin());
   return camera;
 }
 

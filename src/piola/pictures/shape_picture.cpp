@@ -92,7 +92,7 @@ Image draw_shape(CaseSpec const& spec, ParticleSet const& particles, ShapePictur
   if (particles.dimension == 3) camera.eye = eye_before(camera, picture.perspective, stage.low, stage.high);
   Window window;
   include(window, camera, subject);
-  if (camera.follow < 0) show_shapes(window, camera.view, shapes, stage);
+  if (camera.followed_body < 0) show_shapes(window, camera.view, shapes, stage);
   PictureData const data{.points = points,
                          .radius = radii,
                          .values = {},

@@ -50,7 +50,7 @@ std::optional<BodyShapes> BodyShapes::of(RunFolder const& run, int dimension, st
   return BodyShapes(reference_meshes(particles));
 }
 
-void BodyShapes::follow(RunFolder const& run) {
+void BodyShapes::find_torn_cells(RunFolder const& run) {
   std::vector<std::vector<Index>> before;
   for (auto const& [time, path] : run.frames) {
     FrameReader const frame(path);

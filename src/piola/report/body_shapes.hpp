@@ -28,8 +28,8 @@ class BodyShapes {
   static std::optional<BodyShapes> of(RunFolder const& run, int dimension, std::vector<std::uint16_t> const& body);
 
   /// Finds which cells are torn in each frame of the run, in the order of time, as for pictures of all frames.
-  void follow(RunFolder const& run);
-  /// Surfaces of a frame as in pictures. A frame that follow() has not visited is treated as the first one.
+  void find_torn_cells(RunFolder const& run);
+  /// Surfaces of a frame as in pictures. A frame that find_torn_cells() has not visited is treated as the first one.
   BodySurfaces surfaces(FrameReader const& frame) const;
   /// V of F = V R for each `every`-th particle, XX YY ZZ XY YZ XZ: what makes an ellipsoid of a ball. Stretches are
   /// bounded as in pictures; particles whose F is unknown have V = I.

@@ -38,7 +38,7 @@ void shape(RunFolder const& run, ReportOptions const& options, Shown& shown) {
   shown.plan.stretched = !options.surface && shown.surface_data.shapes;
   if (!options.surface) return;
   if (shown.surface_data.shapes) {
-    shown.surface_data.shapes->follow(run);
+    shown.surface_data.shapes->find_torn_cells(run);
     shown.surface_data.surfaces = find_surfaces(run, *shown.surface_data.shapes, statistics);
   }
   auto const triangles = [](auto const& list) { return !list.empty(); };
