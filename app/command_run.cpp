@@ -12,7 +12,7 @@ namespace {
 
 struct RunArguments {
   CaseOptions from;
-  std::string out, wall_time, end;
+  std::string out, wall_time;
   bool force = false, quiet = false, no_pictures = false;
 };
 
@@ -20,11 +20,9 @@ int run(RunArguments const& options) {
   catch_checkpoint_signals();
   double const wall_time = read_wall_time(options.wall_time);
   auto const file = case_file(options.from.file);
-  std::vector<std::string> overrides = options.from.overrides();
-  if (!options.end.empty()) overrides.push_back("run.end=" + options.end);
   std::filesystem::path const folder = options.out.empty() ? default_results(file) : std::filesystem::path(options.out);
   Simulation simulation = set_up({.file = file,
-                                  .overrides = overrides,
+                                  .overrides = options.from.overrides(),
                                   .unfinished = folder_for_unfinished(folder),
                                   .pictures = !options.no_pictures},
                                  {.wall_time = wall_time, .quiet = options.quiet});
@@ -43,7 +41,6 @@ void add_run(CLI::App& program, Action& action) {
   options->from.add_to(*command);
   command->add_option("--out,-o", options->out, "Folder for the results (default: NAME-results in this folder)");
   command->add_flag("--force", options->force, "Use the folder even if it holds other things");
-  command->add_option("--end", options->end, "End of the simulated time, e.g. \"2 ms\" (default: as the case says)");
   add_wall_time(*command, options->wall_time);
   command->add_flag("--no-pictures", options->no_pictures, "Draw no pictures");
   command->add_flag("--quiet,-q", options->quiet, "Say nothing unless something is wrong");
