@@ -71,10 +71,10 @@ void move_to_where_seen(Surfaces& surfaces, Projection const& project, int sampl
   }
 }
 
-/// Whether a particle is farther from its place in the reference configuration than `from` spacings.
-bool has_moved(ReferenceMesh const& mesh, std::span<Point3 const> x, double from) {
+/// Whether a particle is farther from its place in the reference configuration than half a spacing.
+bool has_moved(ReferenceMesh const& mesh, std::span<Point3 const> x) {
   for (std::size_t i = 0; i < mesh.count; ++i)
-    if (distance(x[mesh.first + i], mesh.X[i]) > from * mesh.spacing) return true;
+    if (distance(x[mesh.first + i], mesh.X[i]) > 0.5 * mesh.spacing) return true;
   return false;
 }
 
@@ -86,7 +86,7 @@ std::vector<float> outlines(PictureData const& data, Appearance const& appearanc
     ReferenceMesh const& mesh = data.meshes[body];
     bool const shown = body >= appearance.as.size() || appearance.as[body] != Representation::none;
     if (!shown || mesh.lines.empty() || mesh.first + mesh.count > data.points.size()) continue;
-    if (!has_moved(mesh, data.points, appearance.outline_from)) continue;
+    if (!has_moved(mesh, data.points)) continue;
     coverage.resize(like.depth.size(), 0);
     DashedLines const dashed{project, fine};
     dashed.draw(mesh.lines, like.width, like.height, coverage);

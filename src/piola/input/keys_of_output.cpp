@@ -91,9 +91,6 @@ constexpr std::array picture_rows{
     PictureKey{{"output.pictures", "outline", flag, "", any_value, default_of_member,
                 "dashed lines where the edges of bodies were that have moved"},
                fills<&PictureSpec::appearance, &Appearance::outline>},
-    PictureKey{{"output.pictures", "outline_from", quantity, "1", closed(0, 1e6), default_of_member,
-                "displacement, in spacings, from which on a body has moved and its outline is drawn"},
-               fills<&PictureSpec::appearance, &Appearance::outline_from>},
     PictureKey{
         {"output.pictures", "quality", word, "", any_value, default_of_member,
          "high: pixels are the mean of 4 x 4 samples in place of 2 x 2, and the light from around has more directions",

@@ -43,7 +43,6 @@ struct CutPlane {
 struct Appearance {
   std::vector<Representation> as = {};  ///< per body; those beyond its end: automatic
   bool outline = true;                  ///< edges of the reference shape of bodies that have moved, dashed
-  double outline_from = 0.5;            ///< displacement from which on a body has moved [spacings]
   std::optional<CutPlane> cut = {};
   Quality quality = Quality::normal;
 };
