@@ -19,7 +19,6 @@ enum class ProbeKind {
   extent,
   error,
   stress_intensity,
-  maximum_speed,
   spacing,
   fragment,
   rim,
@@ -41,7 +40,6 @@ inline constexpr std::array twist{HistoryName{"twist_angle", "rad"}};
 inline constexpr std::array extent{HistoryName{"extent", "m"}};
 inline constexpr std::array error{HistoryName{"relative_error", "1"}};
 inline constexpr std::array intensity{HistoryName{"stress_intensity", "Pa m^0.5"}};
-inline constexpr std::array maximum_speed{HistoryName{"maximum_speed", "m/s"}};
 inline constexpr std::array spacing{HistoryName{"spacing_min", "1"},    HistoryName{"spacing_p1", "1"},
                                     HistoryName{"spacing_p5", "1"},     HistoryName{"spacing_median", "1"},
                                     HistoryName{"spacing_std", "1"},    HistoryName{"share_below_0_75", "1"},
@@ -70,7 +68,6 @@ inline constexpr std::array probe_kinds{
     ProbeKindInfo{"extent", quantities_of_probe::extent},
     ProbeKindInfo{"error", quantities_of_probe::error},
     ProbeKindInfo{"stress_intensity", quantities_of_probe::intensity, 2},
-    ProbeKindInfo{"maximum_speed", quantities_of_probe::maximum_speed},
     ProbeKindInfo{"spacing", quantities_of_probe::spacing, 0, false},
     ProbeKindInfo{"fragment", quantities_of_probe::fragment, 0, false},
     ProbeKindInfo{"rim", quantities_of_probe::rim, 3, false},

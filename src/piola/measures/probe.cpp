@@ -156,16 +156,6 @@ double extent(std::size_t axis, ProbeParticles const& p, FieldCache& cache) {
   return high - low;
 }
 
-double maximum_speed(ProbeParticles const& p, FieldCache& cache) {
-  if (!cache.knows("Velocity")) return std::numeric_limits<double>::quiet_NaN();
-  auto const v = cache.values("Velocity");
-  auto const speed = [&](std::size_t k) {
-    double const* const of_particle = &v[p.at(k) * 3];
-    return std::hypot(of_particle[0], of_particle[1], of_particle[2]);
-  };
-  return extrema(p, speed)[1];
-}
-
 /// sqrt(sum V |f - r|^2 / sum V |r|^2) with the Frobenius norm: the shear components of a symmetric tensor count twice.
 double relative_error(ProbeSpec const& spec, ProbeParticles const& p, FieldCache& cache, double time) {
   if (!cache.knows(spec.field)) return std::numeric_limits<double>::quiet_NaN();
@@ -267,7 +257,6 @@ std::vector<double> Probe::own_values(FieldCache& cache, double time) {
     case ProbeKind::extent: return {extent(axis, particles_, cache)};
     case ProbeKind::error: return {relative_error(spec_, particles_, cache, time)};
     case ProbeKind::stress_intensity: return {intensity(spec_, distance_, particles_, cache)};
-    case ProbeKind::maximum_speed: return {maximum_speed(particles_, cache)};
     case ProbeKind::spacing: return spacing_values(*measured_, cache);
     case ProbeKind::fragment: return fragment_values(*measured_, cache);
     case ProbeKind::rim: return rim_values(*measured_, cache);
