@@ -43,7 +43,6 @@ struct Fields {
   ListedRef H{owner, "AreaMap", "1", 9, Role::evolved, has.area};
   ListedRef J{owner, "VolumeRatio", "1", 1, Role::evolved, has.volume};
   ListedRef rate{owner, "Acceleration", "m/s2", dimension, has.verlet ? Role::evolved : Role::derived};
-  ListedRef path{owner, "PathLength", "m", 1, Role::evolved, has.verlet};
 
   // Filtered volumetric energy: volume ratio, its filtered form, pressure of the filtered part; Sinkhorn scaling d, sum
   // of the filter's weights without the diagonal; two buffers of d V f for neighbours.

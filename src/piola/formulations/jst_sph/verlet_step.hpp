@@ -11,18 +11,6 @@
 /// One time step of the scheme "filtered": kick, drift, forces, kick. Derivation: docs/theory/jst-sph-filtered.md.
 namespace piola::jst_sph::inline PIOLA_BACKEND {
 
-/// Path length += |dt v^(n+1/2)|.
-template <int D>
-struct AddPath {
-  double dt;
-  View v, path;
-  WriteView path_out;
-  PIOLA_FN void operator()(Index i) const {
-    Vec<D, Lanes> const half = v.vector<D, Lanes>(i);
-    path_out.scalar(i, path.scalar<Lanes>(i) + dt * square_root(dot(half, half)));
-  }
-};
-
 template <int D, class Loader>
 class VerletStep {
  public:
@@ -34,7 +22,6 @@ class VerletStep {
     turn_loads(false);                                   // E at n
     drive(dt);                                           // v^(n+1/2) in prescribed directions
     RigidRate const without_rigid = kick_and_drift(dt);  // v^(n+1/2), x^(n+1)
-    exec::for_each(b_.slots, AddPath<D>{dt, read(b_.v), read(b_.path), write(b_.path)});
     halo_.refresh(b_.u);
     deform(dt, without_rigid);  // F^(n+1), J, L v'
     if (b_.constants.exact_speed) compute_wave_speed<D>(b_);
