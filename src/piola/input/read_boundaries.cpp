@@ -7,23 +7,24 @@
 namespace piola {
 namespace {
 
-using Frame = Support::Frame;
-
-// Letters name directions of the axes; the two words refer to the normal.
+// Letters name directions of the axes; the words of frames refer to the normal.
 void read_fix(Section const& section, int dimension, SupportSpec& support) {
   std::string fix;
   if (!section.read("fix", fix)) return;
   std::string const letters = std::string("xyz").substr(0, static_cast<std::size_t>(dimension));
   std::string const is = "support.fix is " + in_quotes(fix);
-  if (fix == "normal" || fix == "tangent") {
-    support.frame = fix == "normal" ? Frame::normal : Frame::tangent;
+  std::vector<std::string> words;
+  for (std::size_t frame = 1; frame < support_frames.size(); ++frame) {
+    words.push_back(in_quotes(support_frames[frame].word));
+    if (fix != support_frames[frame].word) continue;
+    support.frame = static_cast<Support::Frame>(frame);
     if (!section.has("normal"))
       section.report_missing("normal", "the direction that fix refers to", "normal = [1, 1, 0]");
     return;
   }
   if (section.has("normal")) {
     section.problems().add(section.place_of("fix"),
-                           is + " (allowed with a normal: \"normal\", \"tangent\") - choose one, or remove normal");
+                           is + " (allowed with a normal: " + joined(words) + ") - choose one, or remove normal");
     return;
   }
   for (std::size_t d = 0; d < letters.size(); ++d) support.fix[d] = fix.find(letters[d]) != std::string::npos;
