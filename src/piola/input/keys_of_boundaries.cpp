@@ -38,9 +38,9 @@ constexpr std::array support_rows{
          "patch: what is held; surface: the patch itself, second order; particles: those along it, half a spacing "
          "inside, first order",
          hold_words}},
-    SupportKey{{"support", "fix", text, "", any_value, "",
-                "directions held: letters of \"xyz\"; with normal: \"normal\" (a roller), \"tangent\" (across the "
-                "normal) or \"strike\" (across the normal and z)"}},
+    SupportKey{
+        {"support", "fix", text, "", any_value, "",
+         "directions held: letters of \"xyz\"; with normal: \"normal\" (a roller) or \"tangent\" (across the normal)"}},
     SupportKey{{"support", "normal", point, "1", place_range, "none", "direction that fix refers to, of any length"}},
     SupportKey{{"support", "velocity", formulas, "m/s", any_value, "at rest",
                 "prescribed velocity, one formula in X, Y, Z, t per direction; only the held directions count"}},

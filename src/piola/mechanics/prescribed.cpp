@@ -41,11 +41,6 @@ std::vector<Direction> directions_of(Support::Frame frame, std::array<bool, 3> c
     if (std::abs(std::abs(normal[c]) - 1) < 1e-12) normal = axes[c];
   if (make_orthogonal(normal, {})) basis.push_back(normal);
   if (frame == Support::Frame::normal) return basis;
-  if (frame == Support::Frame::strike) {
-    Direction d{-normal[1], normal[0], 0};
-    if (D > 1 && make_orthogonal(d, basis)) held.push_back(d);
-    return held;
-  }
   auto const along_normal = basis.size();
   for (std::size_t c = 0; c < n && basis.size() < n; ++c) {
     Direction d = axes[c];

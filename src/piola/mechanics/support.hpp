@@ -16,10 +16,9 @@ namespace piola {
 /// in support_frames, and its directions in directions_of().
 struct Support {
   enum class Frame {
-    axes,     ///< the directions in `fix`
-    normal,   ///< along `normal`: a roller on an oblique plane
-    tangent,  ///< across `normal`: the particle may move only along the normal
-    strike    ///< along the horizontal line (across z) of a plane with this normal
+    axes,    ///< the directions in `fix`
+    normal,  ///< along `normal`: a roller on an oblique plane
+    tangent  ///< across `normal`: the particle may move only along the normal
   };
   std::vector<std::int64_t> particles;  ///< ids
   std::array<bool, 3> fix{};
@@ -42,8 +41,7 @@ struct SupportFrame {
   std::string_view preposition;  ///< of the normal in the list of `piola check`
 };
 inline constexpr std::array support_frames{SupportFrame{"", "in"}, SupportFrame{"normal", "along"},
-                                           SupportFrame{"tangent", "across"},
-                                           SupportFrame{"strike", "along the strike of"}};
-static_assert(support_frames.size() == static_cast<std::size_t>(Support::Frame::strike) + 1);
+                                           SupportFrame{"tangent", "across"}};
+static_assert(support_frames.size() == static_cast<std::size_t>(Support::Frame::tangent) + 1);
 
 }  // namespace piola
