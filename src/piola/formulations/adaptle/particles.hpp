@@ -49,12 +49,7 @@ class Particles {
   int reference_neighbours(Index i) const { return material_.built() ? material_.neighbours(i) : 0; }
   std::size_t bytes() const { return data_.bytes() + material_.bytes() + spatial_.bytes(); }
 
-  /// Calls f(field) for all fields of a checkpoint (ParticleData::each_saved).
-  template <class Set, class F>
-  void each_saved(Set& fields, F const& f) const {
-    data_.each_saved(fields, f);
-  }
-  bool is_saved(Field const& field, Index slot) const { return data_.is_saved(field, slot); }
+  ParticleData const& data() const { return data_; }
   std::vector<double>& rigid_centres() { return boundary_.rigid_shapes().centres(); }
   std::vector<double> const& rigid_centres() const { return boundary_.rigid_shapes().centres(); }
   /// Rebuilds derived data after a checkpoint has been loaded.
