@@ -131,7 +131,7 @@ std::string held_text(SupportSpec const& support, int dimension) {
     if (support.fix[d]) text += (text.empty() ? "in " : ", ") + std::string(1, "xyz"[d]);
   }
   if (support.frame != Support::Frame::axes) {
-    text = support.frame == Support::Frame::normal ? "along (" : "across (";
+    text = std::string(support_frames[static_cast<std::size_t>(support.frame)].preposition) + " (";
     for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
       text += (d > 0 ? ", " : "") + number_text(support.normal[d], 4);
     text += ")";

@@ -58,12 +58,4 @@ std::span<std::string_view const> component_words(int components);
 inline constexpr int whole_field = -1;
 std::optional<int> find_component(std::string_view word, int components);
 
-/// Quantities of a whole selection of particles: "twist_angle" [rad], "extent" [m], "relative_error" [1] and
-/// "stress_intensity" [Pa m^0.5].
-inline constexpr std::string_view twist_quantity = "twist_angle";
-inline constexpr std::string_view extent_quantity = "extent";
-inline constexpr std::string_view error_quantity = "relative_error";
-inline constexpr std::string_view intensity_quantity = "stress_intensity";
-inline constexpr std::string_view intensity_unit = "Pa m^0.5";
-
 }  // namespace piola

@@ -7,6 +7,7 @@
 #include "piola/input/document.hpp"
 #include "piola/input/guard_limits.hpp"
 #include "piola/input/picture_spec.hpp"
+#include "piola/input/probe_kinds.hpp"
 #include "piola/setup/faces.hpp"
 #include <array>
 #include <limits>
@@ -141,20 +142,7 @@ struct TieSpec : contact::TieRule {
 
 /// [[probe]]: one or more columns NAME.quantity in history.csv.
 struct ProbeSpec {
-  enum class Kind {
-    point,
-    average,
-    maximum,
-    minimum,
-    twist,
-    extent,
-    error,
-    stress_intensity,
-    spacing,
-    fragment,
-    rim,
-    hole
-  };
+  using Kind = ProbeKind;
   enum class Fragment { largest, largest_free };
   std::string name;
   std::string body;

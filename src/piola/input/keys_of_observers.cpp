@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/input/key_tables.hpp"
-#include "piola/input/probe_kinds.hpp"
+#include "piola/input/observer_keys.hpp"
 #include <array>
 #include <vector>
 

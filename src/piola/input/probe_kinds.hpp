@@ -1,29 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/quantity_names.hpp"
-#include "piola/input/bound_keys.hpp"
-#include "piola/input/case_spec.hpp"
 #include "piola/input/history_names.hpp"
 #include <array>
 #include <span>
 #include <string_view>
 
-/// Kinds of probes and the keys that they use. A new kind: its enumerator, a row here, rows for its keys in
-/// keys_of_observers.cpp; beside that its measurement, see Probe.
+/// Kinds of probes. A new kind: its enumerator and its row here, its measurement in measures/probe.cpp; rows for keys
+/// of its own in keys_of_observers.cpp.
 namespace piola {
 
-struct ProbeKind {
+/// Kind of a [[probe]].
+enum class ProbeKind {
+  point,
+  average,
+  maximum,
+  minimum,
+  twist,
+  extent,
+  error,
+  stress_intensity,
+  spacing,
+  fragment,
+  rim,
+  hole
+};
+
+struct ProbeKindInfo {
   std::string_view word;
   std::span<HistoryName const> quantities = {};  ///< that it computes; none: it samples fields
   int dimension = 0;                             ///< of the only bodies that it measures; 0: any
+  /// Values are sums and extrema over particles, so that each rank can evaluate its local ones; else one rank needs
+  /// all.
+  bool is_reducible = true;
 };
 
 namespace quantities_of_probe {
 
-inline constexpr std::array twist{HistoryName{twist_quantity, "rad"}};
-inline constexpr std::array extent{HistoryName{extent_quantity, "m"}};
-inline constexpr std::array error{HistoryName{error_quantity, "1"}};
-inline constexpr std::array intensity{HistoryName{intensity_quantity, intensity_unit}};
+inline constexpr std::array twist{HistoryName{"twist_angle", "rad"}};
+inline constexpr std::array extent{HistoryName{"extent", "m"}};
+inline constexpr std::array error{HistoryName{"relative_error", "1"}};
+inline constexpr std::array intensity{HistoryName{"stress_intensity", "Pa m^0.5"}};
 inline constexpr std::array spacing{HistoryName{"spacing_min", "1"},    HistoryName{"spacing_p1", "1"},
                                     HistoryName{"spacing_p5", "1"},     HistoryName{"spacing_median", "1"},
                                     HistoryName{"spacing_std", "1"},    HistoryName{"share_below_0_75", "1"},
@@ -42,44 +58,26 @@ inline constexpr std::array hole{HistoryName{"hole_slab", "m"}, HistoryName{"cav
 
 }  // namespace quantities_of_probe
 
-/// In the order of ProbeSpec::Kind.
+/// In the order of ProbeKind.
 inline constexpr std::array probe_kinds{
-    ProbeKind{"point"},
-    ProbeKind{"average"},
-    ProbeKind{"maximum"},
-    ProbeKind{"minimum"},
-    ProbeKind{"twist", quantities_of_probe::twist},
-    ProbeKind{"extent", quantities_of_probe::extent},
-    ProbeKind{"error", quantities_of_probe::error},
-    ProbeKind{"stress_intensity", quantities_of_probe::intensity, 2},
-    ProbeKind{"spacing", quantities_of_probe::spacing},
-    ProbeKind{"fragment", quantities_of_probe::fragment},
-    ProbeKind{"rim", quantities_of_probe::rim, 3},
-    ProbeKind{"hole", quantities_of_probe::hole, 2},
+    ProbeKindInfo{"point"},
+    ProbeKindInfo{"average"},
+    ProbeKindInfo{"maximum"},
+    ProbeKindInfo{"minimum"},
+    ProbeKindInfo{"twist", quantities_of_probe::twist},
+    ProbeKindInfo{"extent", quantities_of_probe::extent},
+    ProbeKindInfo{"error", quantities_of_probe::error},
+    ProbeKindInfo{"stress_intensity", quantities_of_probe::intensity, 2},
+    ProbeKindInfo{"spacing", quantities_of_probe::spacing, 0, false},
+    ProbeKindInfo{"fragment", quantities_of_probe::fragment, 0, false},
+    ProbeKindInfo{"rim", quantities_of_probe::rim, 3, false},
+    ProbeKindInfo{"hole", quantities_of_probe::hole, 2, false},
 };
-static_assert(probe_kinds.size() == static_cast<std::size_t>(ProbeSpec::Kind::hole) + 1);
+static_assert(probe_kinds.size() == static_cast<std::size_t>(ProbeKind::hole) + 1);
 
-constexpr ProbeKind const& info_of(ProbeSpec::Kind kind) { return probe_kinds[static_cast<std::size_t>(kind)]; }
+constexpr ProbeKindInfo const& info_of(ProbeKind kind) { return probe_kinds[static_cast<std::size_t>(kind)]; }
 
 /// SI unit of a quantity of a probe, of a kind's own or of a field; "1" if it is not known.
-std::string_view unit_of_probe_quantity(ProbeSpec::Kind kind, std::string_view quantity);
-
-/// Kinds of probes as bits.
-template <class... Kinds>
-constexpr unsigned kinds_of_probe(Kinds... kinds) {
-  return ((1U << static_cast<unsigned>(kinds)) | ...);
-}
-
-/// A key of [[probe]], and which kinds use it.
-struct ProbeKey {
-  BoundKey<ProbeSpec> row;
-  unsigned kinds = ~0U;                   ///< see kinds_of_probe
-  std::string_view needed_for = {};       ///< these kinds need it, for this; empty: they may leave it out
-  std::string_view example = "\"1 mm\"";  ///< for the message that it is missing
-
-  bool is_used_by(ProbeSpec::Kind kind) const { return (kinds & kinds_of_probe(kind)) != 0; }
-};
-std::span<ProbeKey const> probe_keys();
-std::span<BoundKey<QuantitySpec> const> quantity_keys();
+std::string_view unit_of_probe_quantity(ProbeKind kind, std::string_view quantity);
 
 }  // namespace piola

@@ -7,22 +7,23 @@
 namespace piola {
 namespace {
 
-using Frame = Support::Frame;
-
-// Letters name directions of the axes; the two words refer to the normal.
+// Letters name directions of the axes; the words of frames refer to the normal.
 void read_fix(Section const& section, int dimension, SupportSpec& support) {
   std::string fix;
   if (!section.read("fix", fix)) return;
-  if (fix == "normal" || fix == "tangent") {
-    support.frame = fix == "normal" ? Frame::normal : Frame::tangent;
+  std::string const is = "support.fix is " + in_quotes(fix);
+  std::vector<std::string> words;
+  for (std::size_t frame = 1; frame < support_frames.size(); ++frame) {
+    words.push_back(in_quotes(support_frames[frame].word));
+    if (fix != support_frames[frame].word) continue;
+    support.frame = static_cast<Support::Frame>(frame);
     if (!section.has("normal"))
       section.report_missing("normal", "the direction that fix refers to", "normal = [1, 1, 0]");
     return;
   }
   if (section.has("normal")) {
     section.problems().add(section.place_of("fix"),
-                           "support.fix is " + in_quotes(fix) +
-                               " (allowed with a normal: \"normal\", \"tangent\") - choose one, or remove normal");
+                           is + " (allowed with a normal: " + joined(words) + ") - choose one, or remove normal");
     return;
   }
   support.fix = fixed_axes(section, fix, dimension);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
 #include "piola/base/units.hpp"
-#include "piola/input/probe_kinds.hpp"
+#include "piola/formulations/quantity_names.hpp"
+#include "piola/input/observer_keys.hpp"
 #include "piola/input/sections.hpp"
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "piola/formulations/registry.hpp"
 #include "piola/input/contact_capabilities.hpp"
 #include "piola/input/history_names.hpp"
-#include "piola/input/probe_kinds.hpp"
+#include "piola/input/observer_keys.hpp"
 #include "piola/input/sections.hpp"
 #include <array>
 

@@ -25,29 +25,28 @@ bool make_orthogonal(Direction& d, std::vector<Direction> const& to) {
   return true;
 }
 
-std::vector<Direction> directions_of(Support const& s, int D) {
+std::vector<Direction> directions_of(Support::Frame frame, std::array<bool, 3> const& fix, Direction normal, int D) {
   PIOLA_EXPECTS(D >= 1 && D <= 3);
   static constexpr Direction axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   std::vector<Direction> held;
   auto const n = static_cast<std::size_t>(D);
-  if (s.frame == Support::Frame::axes) {
+  if (frame == Support::Frame::axes) {
     for (std::size_t c = 0; c < n; ++c)
-      if (s.fix[c]) held.push_back(axes[c]);
+      if (fix[c]) held.push_back(axes[c]);
     return held;
   }
-  std::vector<Direction> frame;
-  Direction normal{};
-  std::copy(s.normal.begin(), s.normal.begin() + D, normal.begin());
+  std::vector<Direction> basis;
+  std::fill(normal.begin() + D, normal.end(), 0);
   for (std::size_t c = 0; c < n; ++c)
     if (std::abs(std::abs(normal[c]) - 1) < 1e-12) normal = axes[c];
-  if (make_orthogonal(normal, {})) frame.push_back(normal);
-  if (s.frame == Support::Frame::normal) return frame;
-  auto const along_normal = frame.size();
-  for (std::size_t c = 0; c < n && frame.size() < n; ++c) {
+  if (make_orthogonal(normal, {})) basis.push_back(normal);
+  if (frame == Support::Frame::normal) return basis;
+  auto const along_normal = basis.size();
+  for (std::size_t c = 0; c < n && basis.size() < n; ++c) {
     Direction d = axes[c];
-    if (make_orthogonal(d, frame)) frame.push_back(d);
+    if (make_orthogonal(d, basis)) basis.push_back(d);
   }
-  return {frame.begin() + static_cast<std::ptrdiff_t>(along_normal), frame.end()};
+  return {basis.begin() + static_cast<std::ptrdiff_t>(along_normal), basis.end()};
 }
 
 std::vector<PrescribedAxis> hold_along(std::vector<Direction> const& rows) {

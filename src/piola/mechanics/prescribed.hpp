@@ -40,8 +40,13 @@ double dot(Direction const& a, Direction const& b);
 /// Removes the components along the unit vectors `to` from d and normalises the rest. Returns false if nothing remains.
 bool make_orthogonal(Direction& d, std::vector<Direction> const& to);
 
-/// The directions that a support holds, in a body of D dimensions; exact axes for directions along an axis.
-std::vector<Direction> directions_of(Support const& support, int D);
+/// The directions that a support (Support or SupportSpec) holds, in a body of D dimensions; exact axes for directions
+/// along an axis.
+std::vector<Direction> directions_of(Support::Frame frame, std::array<bool, 3> const& fix, Direction normal, int D);
+template <class Held>
+std::vector<Direction> directions_of(Held const& support, int D) {
+  return directions_of(support.frame, support.fix, support.normal, D);
+}
 
 /// One of the orthonormal directions in which a particle is held, computed from the requested directions.
 struct PrescribedAxis {

@@ -2,15 +2,18 @@
 #pragma once
 #include "piola/base/expression.hpp"
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace piola {
 
-/// Particles whose velocity is prescribed in some directions: zero or `velocity`.
+/// Particles whose velocity is prescribed in some directions: zero or `velocity`. A new frame: its enumerator, its row
+/// in support_frames, and its directions in directions_of().
 struct Support {
   enum class Frame {
     axes,    ///< the directions in `fix`
@@ -31,5 +34,14 @@ struct Support {
 
   bool on_surface() const { return !normals.empty(); }
 };
+
+/// How cases name a frame. In the order of Support::Frame.
+struct SupportFrame {
+  std::string_view word;         ///< value of `fix`; empty: letters of axes
+  std::string_view preposition;  ///< of the normal in the list of `piola check`
+};
+inline constexpr std::array support_frames{SupportFrame{"", "in"}, SupportFrame{"normal", "along"},
+                                           SupportFrame{"tangent", "across"}};
+static_assert(support_frames.size() == static_cast<std::size_t>(Support::Frame::tangent) + 1);
 
 }  // namespace piola

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
+#include "piola/mechanics/prescribed.hpp"
 #include "piola/model/case_particles.hpp"
 #include "piola/model/region_checks.hpp"
 #include <cmath>
@@ -24,14 +25,9 @@ struct Hold {
 
 Projector projector_of(SupportSpec const& support, int dimension) {
   Projector P{};
-  for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i) {
-    for (std::size_t j = 0; j < static_cast<std::size_t>(dimension); ++j) {
-      double const unit = i == j ? 1 : 0, dyad = support.normal[i] * support.normal[j];
-      if (support.frame == Support::Frame::axes) P[3 * i + j] = support.fix[i] ? unit : 0;
-      if (support.frame == Support::Frame::normal) P[3 * i + j] = dyad;
-      if (support.frame == Support::Frame::tangent) P[3 * i + j] = unit - dyad;
-    }
-  }
+  for (Direction const& d : directions_of(support, dimension))
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) P[3 * i + j] += d[i] * d[j];
   return P;
 }
 

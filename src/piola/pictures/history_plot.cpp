@@ -6,6 +6,7 @@
 #include "piola/formulations/quantity_names.hpp"
 #include "piola/formulations/registry.hpp"
 #include "piola/input/history_names.hpp"
+#include "piola/input/probe_kinds.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/output/history.hpp"
 #include "piola/pictures/rounding_levels.hpp"
@@ -137,10 +138,8 @@ std::string unit_of_column(std::string const& name) {
   for (auto const& parts : {action_quantities(), rigid_quantities(), body_quantities()})
     for (PartQuantity const& part : parts)
       if (part.word == word) return std::string(part.unit);
-  if (word == twist_quantity) return "rad";
-  if (word == extent_quantity) return "m";
-  if (word == error_quantity) return "1";
-  if (word == intensity_quantity) return std::string(intensity_unit);
+  for (ProbeKindInfo const& kind : probe_kinds)  // several numbers of a kind share an axis, whatever their units
+    if (kind.quantities.size() == 1 && kind.quantities[0].name == word) return std::string(kind.quantities[0].unit);
   return "";
 }
 

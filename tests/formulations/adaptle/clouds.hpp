@@ -37,7 +37,7 @@ struct State {
   Components x, v, S;
   double &rho, &energy, &plastic_strain, &plastic_work, &damage, &viscosity, &phi, &active, &released, &energy_rate;
 
-  State(adaptle::ParticleFields const& f, Index i)
+  State(adaptle::Fields const& f, Index i)
       : x(part(f.x, i, 3)),
         v(part(f.v, i, 3)),
         S(part(f.S, i, 6)),
@@ -113,7 +113,7 @@ struct Cloud {
 
   /// Sums of particle i over spatial, reference and contact sweeps.
   Sums sums(Index i) const {
-    adaptle::ParticleFields const& f = system().field;
+    adaptle::Fields const& f = system().field;
     using R = adaptle::SpatialResult;
     using C = adaptle::ContactSum;
     adaptle::SpatialTable const& spatial = system().spatial;
@@ -132,7 +132,7 @@ struct Cloud {
     return r;
   }
   Half half(Index i) const {
-    adaptle::ParticleFields const& f = system().field;
+    adaptle::Fields const& f = system().field;
     Half r{};
     for (int c = 0; c < 3; ++c) r.v[c] = of(f.v_half, i, c);
     for (int c = 0; c < 6; ++c) r.S[c] = of(f.S_half, i, c);
@@ -143,7 +143,7 @@ struct Cloud {
     return r;
   }
   Deformation deformation(Index i) const {
-    adaptle::ParticleFields const& f = system().field;
+    adaptle::Fields const& f = system().field;
     Deformation r{};
     for (int c = 0; c < 9; ++c) {
       r.F[c] = of(f.F, i, c);
@@ -176,7 +176,7 @@ struct Cloud {
 
   std::unique_ptr<adaptle::Particles> particles;
   struct {
-    adaptle::ParticleFields const* field;
+    adaptle::Fields const* field;
     State operator[](Index i) const { return {*field, i}; }
   } state;
 

@@ -59,17 +59,17 @@ std::optional<std::vector<Partition>> Distribution::plan(ParticleData const& par
 void Distribution::migrate(ParticleData& particles, std::vector<Partition> const& from) {
   std::vector<Partition> const& to = partition_.cuts();
   PIOLA_EXPECTS(from.size() == to.size());
-  std::vector<Field*> fields;
-  particles.each_saved(particles.fields(), [&](Field& field) {
-    if (&field != &particles.fields().phi && &field != &particles.fields().active) fields.push_back(&field);
+  std::vector<std::pair<FieldRef, int>> fields;
+  particles.each_saved([&](FieldRef const& field, int components) {
+    if (!particles.is_replicated(field)) fields.emplace_back(field, components);
   });
   // Calls f(value) for the values sent from one rank to another.
   auto const each = [&](int giver, int taker, auto const& f) {
     for (std::size_t b = 0; b < from.size(); ++b) {
       Range const had = from[b].of(giver), has = to[b].of(taker);
       for (Index i = std::max(had.first, has.first); i < std::min(had.last, has.last); ++i)
-        for (Field* field : fields)
-          for (int c = 0; c < field->components(); ++c) f(field->at(i, c));
+        for (auto const& [field, components] : fields)
+          for (int c = 0; c < components; ++c) f(value_at(field, i, c));
     }
   };
   auto const count = static_cast<std::size_t>(comm::size());

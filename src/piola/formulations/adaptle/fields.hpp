@@ -1,90 +1,110 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/field.hpp"
-#include "piola/formulations/adaptle/state.hpp"
+#include "piola/formulations/common/field_list.hpp"
 
 namespace piola::adaptle {
 
-/// The one list of AdapTLE's particle fields, for all bodies of a run together, by slot. Vectors and tensors are
-/// three-dimensional; symmetric ones in the order of SymMat.
-struct Fields : FieldSet {
-  ListedField X{*this, "ReferencePosition", "m", 3, Role::reference};
-  ListedField volume{*this, "Volume", "m3", 1, Role::reference};
-  ListedField mass{*this, "Mass", "kg", 1, Role::reference};
+/// Optional features of a case that need additional fields.
+struct FieldNeeds {
+  bool lagrangian = false;    ///< some particle has a deformation gradient
+  bool kernel_sums = false;   ///< the sums over reference neighbours store the kernel
+  bool plane_stress = false;  ///< variable thickness
+  bool touching = false;      ///< several bodies, or rigid shapes
+};
 
-  ListedField x{*this, "Position", "m", 3, Role::evolved};
-  ListedField v{*this, "Velocity", "m/s", 3, Role::evolved};
-  ListedField S{*this, "StressDeviator", "Pa", 6, Role::evolved};
-  ListedField rho{*this, "Density", "kg/m3", 1, Role::evolved};
-  ListedField energy{*this, "InternalEnergy", "J", 1, Role::evolved};
-  ListedField plastic_strain{*this, "EquivalentPlasticStrain", "1", 1, Role::evolved};
-  ListedField temperature{*this, "Temperature", "K", 1, Role::evolved};
-  ListedField damage{*this, "Damage", "1", 1, Role::evolved};
-  ListedField plastic_work{*this, "PlasticWork", "J/m3", 1, Role::evolved};
-  ListedField thickness{*this, "Thickness", "1", 1, Role::evolved};
-  ListedField viscosity{*this, "ViscosityFactor", "1", 1, Role::evolved};
-  ListedField phi{*this, "KernelType", "1", 1, Role::evolved};
-  ListedField active{*this, "Alive", "1", 1, Role::evolved};
-  ListedField released{*this, "Released", "1", 1, Role::evolved};
-  ListedField bulking{*this, "BulkingPressure", "Pa", 1, Role::evolved};
+/// Components of Fields::contact.
+struct ContactSum {
+  static constexpr int power = 0,  ///< of contact forces on half the relative velocities [W]
+      stiffness = 1,               ///< [N/m]
+      overlap = 2,                 ///< largest fraction of the stand-off distance used by a contact
+      closing = 3,                 ///< fastest approach of particles of other bodies within the search distance, over
+                                   ///< dp [1/s]
+      size = 4;
+};
+
+/// A field of the list, with access for set-up and observers.
+struct ParticleField : ListedRef {
+  using ListedRef::ListedRef;
+  double& at(Index i, int c = 0) const { return value_at(*this, i, c); }
+};
+
+/// The one list of AdapTLE's particle fields, for all bodies of a run together, by slot, and what loops get of them.
+/// Memory, checkpoints and migration follow from it. Vectors and tensors are three-dimensional; symmetric ones in the
+/// order of SymMat.
+struct Fields {
+  /// of: owner of the memory; nullptr: none.
+  explicit Fields(FieldList* of = nullptr, FieldNeeds const& needs = {}) : owner(of), has(needs) {}
+  FieldList* owner;
+  FieldNeeds has;
+
+  /// Whether the case has the field.
+  static bool holds(FieldRef const& field) { return field.data != nullptr; }
+
+  ParticleField X{owner, "ReferencePosition", "m", 3, Role::reference};
+  ParticleField volume{owner, "Volume", "m3", 1, Role::reference};
+  ParticleField mass{owner, "Mass", "kg", 1, Role::reference};
+
+  ParticleField x{owner, "Position", "m", 3, Role::evolved};
+  ParticleField v{owner, "Velocity", "m/s", 3, Role::evolved};
+  ParticleField S{owner, "StressDeviator", "Pa", 6, Role::evolved};
+  ParticleField rho{owner, "Density", "kg/m3", 1, Role::evolved};
+  ParticleField energy{owner, "InternalEnergy", "J", 1, Role::evolved};
+  ParticleField plastic_strain{owner, "EquivalentPlasticStrain", "1", 1, Role::evolved};
+  ParticleField temperature{owner, "Temperature", "K", 1, Role::evolved};
+  ParticleField damage{owner, "Damage", "1", 1, Role::evolved};
+  ParticleField plastic_work{owner, "PlasticWork", "J/m3", 1, Role::evolved};
+  /// In plane stress, over the initial one.
+  ParticleField thickness{owner, "Thickness", "1", 1, Role::evolved, has.plane_stress};
+  /// Factor on alpha and beta of the switch of the viscosity.
+  ParticleField viscosity{owner, "ViscosityFactor", "1", 1, Role::evolved};
+  /// 0: total-Lagrangian, 1: Eulerian, between: blended.
+  ParticleField phi{owner, "KernelType", "1", 1, Role::evolved};
+  /// 0: deleted, carries no stress.
+  ParticleField active{owner, "Alive", "1", 1, Role::evolved};
+  /// Fraction of shear and tension that a failed particle has released.
+  ParticleField released{owner, "Released", "1", 1, Role::evolved};
+  /// Pressure by bulking of broken material.
+  ParticleField bulking{owner, "BulkingPressure", "Pa", 1, Role::evolved};
   // Rates of the last step, from which the next one predicts half time.
-  ListedField a{*this, "Acceleration", "m/s2", 3, Role::evolved};
-  ListedField S_rate{*this, "StressDeviatorRate", "Pa/s", 6, Role::evolved};
-  ListedField rho_rate{*this, "DensityRate", "kg/(m3 s)", 1, Role::evolved};
-  ListedField energy_rate{*this, "InternalEnergyRate", "W", 1, Role::evolved};
-  ListedField thickness_rate{*this, "ThicknessRate", "1/s", 1, Role::evolved};
-  ListedField flow{*this, "FlowStress", "Pa", 1, Role::evolved};
+  ParticleField a{owner, "Acceleration", "m/s2", 3, Role::evolved};
+  ParticleField S_rate{owner, "StressDeviatorRate", "Pa/s", 6, Role::evolved};
+  ParticleField rho_rate{owner, "DensityRate", "kg/(m3 s)", 1, Role::evolved};
+  ParticleField energy_rate{owner, "InternalEnergyRate", "W", 1, Role::evolved};
+  ParticleField thickness_rate{owner, "ThicknessRate", "1/s", 1, Role::evolved, has.plane_stress};
+  /// Von Mises stress at the end of the last plastic step; 0: the next prediction evaluates the law.
+  ParticleField flow{owner, "FlowStress", "Pa", 1, Role::evolved};
 
   // Half time.
-  ListedField v_half{*this, "VelocityOfHalfTime", "m/s", 3, Role::derived};
-  ListedField S_half{*this, "StressDeviatorOfHalfTime", "Pa", 6, Role::derived};
-  ListedField thickness_half{*this, "ThicknessOfHalfTime", "1", 1, Role::derived};
-  ListedField volume_half{*this, "VolumeOfHalfTime", "m3", 1, Role::derived};
-  ListedField rho_half{*this, "DensityOfHalfTime", "kg/m3", 1, Role::derived};
-  ListedField pressure{*this, "PressureOfHalfTime", "Pa", 1, Role::derived};
-  ListedField c{*this, "WaveSpeedOfHalfTime", "m/s", 1, Role::derived};
-  ListedField F{*this, "DeformationGradient", "1", 9, Role::derived};
-  ListedField F_rate{*this, "DeformationGradientRate", "1/s", 9, Role::derived};
-  ListedField gap{*this, "Gap", "1", 1, Role::derived};
+  ParticleField v_half{owner, "VelocityOfHalfTime", "m/s", 3, Role::derived};
+  ParticleField S_half{owner, "StressDeviatorOfHalfTime", "Pa", 6, Role::derived};
+  ParticleField thickness_half{owner, "ThicknessOfHalfTime", "1", 1, Role::derived, has.plane_stress};
+  ParticleField volume_half{owner, "VolumeOfHalfTime", "m3", 1, Role::derived};
+  ParticleField rho_half{owner, "DensityOfHalfTime", "kg/m3", 1, Role::derived};
+  ParticleField pressure{owner, "PressureOfHalfTime", "Pa", 1, Role::derived};  ///< positive in compression
+  ParticleField c{owner, "WaveSpeedOfHalfTime", "m/s", 1, Role::derived};
+  ParticleField F{owner, "DeformationGradient", "1", 9, Role::derived, has.lagrangian};
+  ParticleField F_rate{owner, "DeformationGradientRate", "1/s", 9, Role::derived, has.lagrangian};
+  /// Largest |x_b - x_a - F_a (X_b - X_a)| / material h over Eulerian reference neighbours b; -1: no F.
+  ParticleField gap{owner, "Gap", "1", 1, Role::derived, has.lagrangian};
 
   // Sums over reference neighbours and over contacts.
-  ListedField force{*this, "Force", "N", 3, Role::derived};
-  ListedField heat{*this, "Heat", "W", 1, Role::derived};
-  ListedField hourglass{*this, "HourglassPower", "W", 1, Role::derived};
-  ListedField compression{*this, "FastestCompression", "m/s", 1, Role::derived};
-  ListedField contact{*this, "ContactSums", "1", ContactSum::size, Role::derived};
+  ParticleField force{owner, "Force", "N", 3, Role::derived, has.lagrangian || has.touching};
+  ParticleField heat{owner, "Heat", "W", 1, Role::derived, has.lagrangian};
+  /// Power that the hourglass stiffness stores.
+  ParticleField hourglass{owner, "HourglassPower", "W", 1, Role::derived, has.lagrangian};
+  /// Largest |mu_ab| of the viscosity.
+  ParticleField compression{owner, "FastestCompression", "m/s", 1, Role::derived, has.lagrangian};
+  /// In the order of ContactSum.
+  ParticleField contact{owner, "ContactSums", "1", ContactSum::size, Role::derived, has.touching};
 
-  // Constants of the sums over reference neighbours.
-  ListedField K{*this, "GradientCorrection", "1", 6, Role::reference};
-  ListedField gradient_sum{*this, "GradientSum", "1/m", 3, Role::reference};
-  ListedField kernel_sum{*this, "KernelSum", "1", 1, Role::reference};
-  ListedField N{*this, "FoldedCorrection", "1", 9, Role::reference};
-  ListedField gradient_mean{*this, "KernelGradientMean", "1/m", 3, Role::reference};
-
-  /// Optional features of a case that need additional fields.
-  struct FieldRequirements {
-    bool lagrangian = false;    ///< some particle has a deformation gradient
-    EquationSet equations;      ///< of the sums over reference neighbours
-    bool plane_stress = false;  ///< variable thickness
-    bool touching = false;      ///< several bodies, or rigid shapes
-  };
-  bool wants(Field const& field, FieldRequirements const& needs) const {
-    auto const is_one_of = [&](auto const&... some) { return (... || (&field == &some)); };
-    if (is_one_of(F, F_rate, gap, heat, hourglass, compression, K, gradient_sum)) return needs.lagrangian;
-    if (is_one_of(force)) return needs.lagrangian || needs.touching;
-    if (is_one_of(kernel_sum, N, gradient_mean)) return needs.lagrangian && needs.equations.stores_kernel();
-    if (is_one_of(thickness, thickness_rate, thickness_half)) return needs.plane_stress;
-    if (is_one_of(contact)) return needs.touching;
-    return true;
-  }
-  void allocate(Index particles, FieldRequirements const& needs) {
-    constexpr Index guard = 16;  // loops read whole lanes
-    each([&](Field& field) {
-      if (wants(field, needs)) field.allocate(particles, guard);
-    });
-  }
-  bool holds(Field const& field) const { return field.ref().data != nullptr; }
-  ParticleFields refs() const;
+  // Constants of the sums over reference neighbours, with s = -W'(r)/r and r = X_b - X_a: inverse of sum_b V0_b s r (x)
+  // r, symmetric, of D dimensions, not as published; sum_b V0_b s r over particles that are not deleted; sum_b V0_b W
+  // over these; as published, gt_ab = N (g - G W), with N = K/S and G over S.
+  ParticleField K{owner, "GradientCorrection", "1", 6, Role::reference, has.lagrangian};
+  ParticleField gradient_sum{owner, "GradientSum", "1/m", 3, Role::reference, has.lagrangian};
+  ParticleField kernel_sum{owner, "KernelSum", "1", 1, Role::reference, has.lagrangian&& has.kernel_sums};
+  ParticleField N{owner, "FoldedCorrection", "1", 9, Role::reference, has.lagrangian&& has.kernel_sums};
+  ParticleField gradient_mean{owner, "KernelGradientMean", "1/m", 3, Role::reference, has.lagrangian&& has.kernel_sums};
 };
 
 }  // namespace piola::adaptle

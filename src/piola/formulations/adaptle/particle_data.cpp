@@ -45,16 +45,25 @@ ContactLaw law_of(ContactRule const& rule) {
   }
 }
 
+FieldNeeds field_needs(Assembly const& assembly, Options const& options) {
+  return {.lagrangian = std::any_of(options.bodies.begin(), options.bodies.end(),
+                                    [](BodyOptions const& o) { return o.description != Description::eulerian; }),
+          .kernel_sums = options.settings.equations.stores_kernel(),
+          .plane_stress = options.settings.plane_stress,
+          .touching = assembly.particles.bodies.size() > 1 || !assembly.rigid_shapes.empty()};
+}
+
 }  // namespace
 
-ParticleData::ParticleData(Assembly const& assembly, Options const& options) : set_(assembly.particles) {
+ParticleData::ParticleData(Assembly const& assembly, Options const& options)
+    : set_(assembly.particles), system_(&memory_, field_needs(assembly, options)) {
   PIOLA_EXPECTS(options.bodies.size() == set_.bodies.size());
   system_.dimension = set_.dimension;
   system_.settings = options.settings;
   system_.shared = comm::is_parallel();
   set_bodies(assembly, options);
   set_contact(assembly);
-  allocate(options, !assembly.rigid_shapes.empty());
+  allocate(options);
   set_descriptions(options);
 }
 
@@ -107,16 +116,12 @@ void ParticleData::set_contact(Assembly const& assembly) {
   system_.contact.law = law_of(assembly.contact);
 }
 
-void ParticleData::allocate(Options const& options, bool rigid_shapes) {
+void ParticleData::allocate(Options const& options) {
   auto const n = static_cast<std::size_t>(set_.size());
   System& s = system_;
-  Fields::FieldRequirements needs;
-  needs.lagrangian = std::any_of(options.bodies.begin(), options.bodies.end(),
-                                 [](BodyOptions const& o) { return o.description != Description::eulerian; });
-  needs.equations = options.settings.equations;
-  needs.plane_stress = options.settings.plane_stress;
-  needs.touching = body_.size() > 1 || rigid_shapes;
-  fields_.allocate(static_cast<Index>(n), needs);
+  constexpr Index guard = 16;  // loops read whole lanes
+  memory_.each_without_memory([&](Field& field) { field.allocate(static_cast<Index>(n), guard); });
+  memory_.bind();
   for (std::size_t b = 0; b < body_.size(); ++b)
     body_of_.insert(body_of_.end(), at(body_[b].last - body_[b].first), static_cast<int>(b));
   if (options.settings.corrected) correction_ = LazyZeroArray<Correction>(n);
@@ -127,14 +132,13 @@ void ParticleData::allocate(Options const& options, bool rigid_shapes) {
   s.particles = static_cast<Index>(n);
   s.body = body_.data();
   s.body_of = body_of_.data();
-  s.field = fields_.refs();
   s.correction = correction_.data();
   s.position = position_.data();
   s.description.eulerian = eulerian_.data();
   s.partial = partial_.data();
   s.failure = &failure_;
   s.spatial.stride = s.dimension == 2 ? spatial_stride<2>(s.settings) : spatial_stride<3>(s.settings);
-  for (Index i = 0; i < s.particles; ++i) fields_.active.at(i) = 1;
+  for (Index i = 0; i < s.particles; ++i) fields().active.at(i) = 1;
 }
 
 void ParticleData::set_descriptions(Options const& options) {
@@ -144,7 +148,7 @@ void ParticleData::set_descriptions(Options const& options) {
     std::vector<Index> outside;
     for (Index i = body_[k].first; i < body_[k].last; ++i) {
       bool const inside = patch && (*o.eulerian_where)(set_.X[at(i)]) != 0;
-      fields_.phi.at(i) = o.description == Description::eulerian || inside ? 1 : 0;
+      fields().phi.at(i) = o.description == Description::eulerian || inside ? 1 : 0;
       if (patch && !inside) outside.push_back(i);
     }
     double const width = o.blend * body_[k].spacing;
@@ -155,29 +159,29 @@ void ParticleData::set_descriptions(Options const& options) {
 /// Blends the kernel types over a width [m] at the border of a patch.
 void ParticleData::blend_patch(BodyConstants const& body, double width, std::vector<Index> const& outside) {
   for (Index i = body.first; i < body.last; ++i) {
-    if (fields_.phi.at(i) == 0) continue;
+    if (fields().phi.at(i) == 0) continue;
     double nearest = width;
     for (Index const j : outside) {
       auto const &p = set_.X[at(i)], &q = set_.X[at(j)];
       nearest = std::min(nearest, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
     }
     double const z = nearest / width;
-    fields_.phi.at(i) = z * z * (3 - 2 * z);
+    fields().phi.at(i) = z * z * (3 - 2 * z);
   }
 }
 
 void ParticleData::set_reference() {
   auto const set_point = [&](Index slot) {
     std::size_t const i = at(slot);
-    for (int c = 0; c < 3; ++c) fields_.X.at(slot, c) = set_.X[i][at(c)];
-    fields_.volume.at(slot) = set_.volume[i];
+    for (int c = 0; c < 3; ++c) fields().X.at(slot, c) = set_.X[i][at(c)];
+    fields().volume.at(slot) = set_.volume[i];
   };
   for (std::size_t b = 0; b < body_.size(); ++b)
     for (Index i = system_.part[b].first; i < system_.part[b].last; ++i) {
       set_point(i);
-      fields_.mass.at(i) = body_[b].rho0 * set_.volume[at(i)];
-      bool const deforms = fields_.holds(fields_.F) && fields_.active.at(i) > 0;  // deleted particles keep theirs
-      for (int c = 0; c < 9 && deforms; ++c) fields_.F.at(i, c) = c % 4 == 0 ? 1 : 0;
+      fields().mass.at(i) = body_[b].rho0 * set_.volume[at(i)];
+      bool const deforms = Fields::holds(fields().F) && fields().active.at(i) > 0;  // deleted particles keep theirs
+      for (int c = 0; c < 9 && deforms; ++c) fields().F.at(i, c) = c % 4 == 0 ? 1 : 0;
     }
   set_point(0);                                         // where cells of space begin
   if (system_.contact.law == ContactLaw::as_published)  // its potential needs data of both sides
@@ -191,20 +195,20 @@ void ParticleData::set_initial_state(Assembly const& assembly) {
         std::size_t const i = at(slot);
         for (int c = 0; c < 3; ++c) {
           double const moved = assembly.initial_displacement.empty() ? 0 : assembly.initial_displacement[i][at(c)];
-          fields_.x.at(slot, c) = position_[3 * at(slot) + at(c)] = set_.X[i][at(c)] + moved;
-          fields_.v.at(slot, c) = assembly.initial_velocity.empty() ? 0 : assembly.initial_velocity[i][at(c)];
+          fields().x.at(slot, c) = position_[3 * at(slot) + at(c)] = set_.X[i][at(c)] + moved;
+          fields().v.at(slot, c) = assembly.initial_velocity.empty() ? 0 : assembly.initial_velocity[i][at(c)];
         }
-        fields_.rho.at(slot) = body_[k].rho0;
-        fields_.viscosity.at(slot) = 1;
-        if (fields_.holds(fields_.thickness)) fields_.thickness.at(slot) = 1;
-        fields_.temperature.at(slot) = law.initial_temperature();
-        fields_.energy.at(slot) = fields_.mass.at(slot) * law.initial_energy();
+        fields().rho.at(slot) = body_[k].rho0;
+        fields().viscosity.at(slot) = 1;
+        if (Fields::holds(fields().thickness)) fields().thickness.at(slot) = 1;
+        fields().temperature.at(slot) = law.initial_temperature();
+        fields().energy.at(slot) = fields().mass.at(slot) * law.initial_energy();
       }
     });
 }
 
 void ParticleData::update_kernel_types() {
-  for (Index i = 0; i < system_.particles; ++i) eulerian_[at(i)] = fields_.phi.at(i) > 0 ? 1 : 0;
+  for (Index i = 0; i < system_.particles; ++i) eulerian_[at(i)] = fields().phi.at(i) > 0 ? 1 : 0;
   system_.description.eulerians = static_cast<Index>(std::count(eulerian_.begin(), eulerian_.end(), std::uint8_t{1}));
 }
 
@@ -214,23 +218,23 @@ bool ParticleData::has_surface_contact() const {
 
 bool ParticleData::has_lagrangian() const {
   for (Index i = 0; i < system_.particles; ++i)
-    if (fields_.phi.at(i) < 1) return true;
+    if (fields().phi.at(i) < 1) return true;
   return false;
 }
 
 bool ParticleData::has_deleted() const {
   for (Index i = 0; i < system_.particles; ++i)
-    if (!(fields_.active.at(i) > 0)) return true;
+    if (!(fields().active.at(i) > 0)) return true;
   return false;
 }
 
 double ParticleData::contact_mass(std::int64_t id) const {
   auto const slot = static_cast<Index>(id);
-  return fields_.active.at(slot) > 0 ? body_of(slot).rho0 * set_.volume[at(id)] : 0;
+  return fields().active.at(slot) > 0 ? body_of(slot).rho0 * set_.volume[at(id)] : 0;
 }
 
 std::size_t ParticleData::bytes() const {
-  return fields_.bytes() + sizeof(int) * body_of_.size() + sizeof(double) * position_.size() +
+  return memory_.bytes() + sizeof(int) * body_of_.size() + sizeof(double) * position_.size() +
          correction_.size() * sizeof(Correction);
 }
 

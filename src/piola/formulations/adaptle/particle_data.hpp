@@ -26,8 +26,8 @@ class ParticleData {
 
   System& system() { return system_; }
   System const& system() const { return system_; }
-  Fields& fields() { return fields_; }
-  Fields const& fields() const { return fields_; }
+  Fields& fields() { return system_.field; }
+  Fields const& fields() const { return system_.field; }
   ParticleSet const& set() const { return set_; }
   std::vector<BodyConstants> const& bodies() const { return body_; }
   BodyConstants const& body_of(Index slot) const { return body_[static_cast<std::size_t>(system_.body_of[slot])]; }
@@ -42,35 +42,39 @@ class ParticleData {
   double contact_mass(std::int64_t id) const;
   std::size_t bytes() const;
 
-  /// Calls f(field) for all fields of a checkpoint. Slots count if is_saved(). Deformation follows from
+  /// Calls f(field, components) for all fields of a checkpoint. Slots count if is_saved(). Deformation follows from
   /// positions, except for deleted particles. The reference data of converted particles are not needed.
-  template <class Set, class F>
-  void each_saved(Set& fields, F const& f) const {
-    fields.each([&](auto& field) {
-      if (field.role() == Role::evolved && fields.holds(field)) f(field);
-    });
-    if (!fields.holds(fields.F) || !has_deleted()) return;
-    f(fields.F);
-    f(fields.F_rate);
-    f(fields.gap);
+  template <class F>
+  void each_saved(F const& f) const {
+    memory_.each_evolved([&](std::string const&, FieldRef const& field, int components) { f(field, components); });
+    if (!Fields::holds(fields().F) || !has_deleted()) return;
+    f(fields().F, 9);
+    f(fields().F_rate, 9);
+    f(fields().gap, 1);
   }
-  bool is_saved(Field const& field, Index slot) const {
-    return field.role() == Role::evolved || !(fields_.active.at(slot) > 0);
+  bool is_saved(FieldRef const& field, Index slot) const {
+    bool const deforms =
+        field.data == fields().F.data || field.data == fields().F_rate.data || field.data == fields().gap.data;
+    return !deforms || !(fields().active.at(slot) > 0);
+  }
+  /// Whether all ranks have all values of the field.
+  bool is_replicated(FieldRef const& field) const {
+    return field.data == fields().phi.data || field.data == fields().active.data;
   }
 
  private:
   void set_bodies(Assembly const& assembly, Options const& options);
   void set_contact(Assembly const& assembly);
-  void allocate(Options const& options, bool rigid_shapes);
+  void allocate(Options const& options);
   void set_descriptions(Options const& options);
   void blend_patch(BodyConstants const& body, double width, std::vector<Index> const& outside);
 
   ParticleSet const set_;  ///< copy-on-write, shared with the case
+  FieldList memory_;       ///< of the fields
   System system_;
   std::vector<BodyConstants> body_;
   std::vector<KernelContactPair> contact_pairs_;
   std::vector<int> body_of_;
-  Fields fields_;
   LazyZeroArray<Correction> correction_;
   LazyZeroArray<double> position_;
   std::vector<std::uint8_t> eulerian_;

@@ -199,9 +199,10 @@ double Particles::kinetic_energy() const {
 void Particles::broadcast_failure() {
   Index const slot = failure().index != FailureSlot::none ? failure().index : 0;
   Range const own = system().part[system().body_of[slot]];
-  Fields& f = fields();
-  for (Field* field : {&f.x, &f.v, &f.rho, &f.damage, &f.plastic_strain})
-    allgather_selected_slots(field->ref(), own, std::array{slot}, field->components());
+  Fields const& f = fields();
+  for (FieldRef const& field : {f.x, f.v}) allgather_selected_slots(field, own, std::array{slot}, 3);
+  for (FieldRef const& field : {f.rho, f.damage, f.plastic_strain})
+    allgather_selected_slots(field, own, std::array{slot}, 1);
 }
 
 void Particles::read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
@@ -211,8 +212,8 @@ void Particles::read_motion(std::span<std::int64_t const> ids, std::span<std::ar
   for (std::size_t k = 0; k < ids.size(); ++k) {
     auto const slot = static_cast<Index>(ids[k]);
     if (!system().is_local(slot)) continue;
-    std::ranges::copy(point_at(fields().x.ref(), slot, 3), &motion[6 * k]);
-    std::ranges::copy(point_at(fields().v.ref(), slot, 3), &motion[6 * k + 3]);
+    std::ranges::copy(point_at(fields().x, slot, 3), &motion[6 * k]);
+    std::ranges::copy(point_at(fields().v, slot, 3), &motion[6 * k + 3]);
   }
   if (system().shared) comm::allreduce_or(motion);
   for (std::size_t k = 0; k < ids.size(); ++k) {

@@ -120,8 +120,8 @@ class Solver final : public Formulation, public Observables, public CoupledParti
 
  private:
   /// The rows of a field of the local particles, whose ids are given.
-  DistributedRows rows_of(Field const& field, std::vector<Index> const& ids) const {
-    return {0, particles_.system().particles, ids, field.components()};
+  DistributedRows rows_of(int components, std::vector<Index> const& ids) const {
+    return {0, particles_.system().particles, ids, components};
   }
   std::vector<Index> local_ids() const {
     auto const ids = particles_.distribution().partition().ids();
@@ -129,8 +129,8 @@ class Solver final : public Formulation, public Observables, public CoupledParti
   }
   /// f(value, slot, component) for a field of the particles of this rank.
   template <class Values, class F>
-  void each_value(Field const& field, Values& mine, F const& f) const {
-    auto const width = at(field.components());
+  void each_value(int components, Values& mine, F const& f) const {
+    auto const width = at(components);
     particles_.distribution().partition().each(comm::rank(), [&](Index i, std::size_t k) {
       for (std::size_t c = 0; c < width; ++c) f(mine[k * width + c], i, static_cast<int>(c));
     });
@@ -168,12 +168,12 @@ std::optional<Failure> Solver::failure() const {
 
 void Solver::save(StateWriter& writer) const {
   std::vector<Index> const ids = local_ids();
-  particles_.data().each_saved(particles_.fields(), [&](Field const& field) {
-    std::vector<double> mine(ids.size() * at(field.components()));
-    each_value(field, mine, [&](double& value, Index i, int c) {
-      value = particles_.data().is_saved(field, i) ? field.at(i, c) : 0;
-    });
-    writer.put_rows(field.name(), rows_of(field, ids), mine);
+  ParticleData const& data = particles_.data();
+  data.each_saved([&](FieldRef const& field, int components) {
+    std::vector<double> mine(ids.size() * at(components));
+    each_value(components, mine,
+               [&](double& value, Index i, int c) { value = data.is_saved(field, i) ? value_at(field, i, c) : 0; });
+    writer.put_rows(field.name, rows_of(components, ids), mine);
   });
   writer.put("books", particles_.energy_totals().state());
   writer.put("rigid_centres", particles_.boundary().rigid_shapes().centres());
@@ -182,19 +182,19 @@ void Solver::save(StateWriter& writer) const {
 
 /// Kernel types are replicated.
 void Solver::load(StateReader& reader) {
-  Fields& fields = particles_.fields();
+  ParticleData const& data = particles_.data();
   std::vector<Index> const ids = local_ids();
-  particles_.data().each_saved(fields, [&](Field& field) {
-    if (&field == &fields.phi || &field == &fields.active) {
+  data.each_saved([&](FieldRef const& field, int components) {
+    if (data.is_replicated(field)) {
       std::vector<double> all(at(particles_.system().particles));
-      reader.get(field.name(), all);
-      for (Index i = 0; i < particles_.system().particles; ++i) field.at(i) = all[at(i)];
+      reader.get(field.name, all);
+      for (Index i = 0; i < particles_.system().particles; ++i) value_at(field, i) = all[at(i)];
       return;
     }
-    std::vector<double> mine(ids.size() * at(field.components()));
-    reader.get_rows(field.name(), rows_of(field, ids), mine);
-    each_value(field, mine, [&](double value, Index i, int c) {
-      if (particles_.data().is_saved(field, i)) field.at(i, c) = value;
+    std::vector<double> mine(ids.size() * at(components));
+    reader.get_rows(field.name, rows_of(components, ids), mine);
+    each_value(components, mine, [&](double value, Index i, int c) {
+      if (data.is_saved(field, i)) value_at(field, i, c) = value;
     });
   });
   load_part(reader, "books", particles_.energy_totals());

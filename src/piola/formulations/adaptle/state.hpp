@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/exec/device_loops.hpp"
-#include "piola/exec/field.hpp"
 #include "piola/formulations/adaptle/equation_set.hpp"
+#include "piola/formulations/adaptle/fields.hpp"
 #include "piola/kernels/registry.hpp"
 #include "piola/materials/registry.hpp"
 #include "piola/neighbours/cell_list.hpp"
@@ -34,44 +34,6 @@ struct LawFactors {
   double const* initial_pressure = nullptr;  ///< positive in tension [Pa]
   double const* burnt = nullptr;             ///< burnt fraction of an explosive at half time
   double const* toughness = nullptr;         ///< factor on the failure strength
-};
-
-/// Fields for loops; described in Fields. Without data: not needed by the case.
-struct ParticleFields {
-  FieldRef X, volume, mass;
-  FieldRef x, v, S, rho, energy;
-  FieldRef plastic_strain, temperature, damage, plastic_work;
-  FieldRef thickness, thickness_half;  ///< in plane stress, over the initial one
-  FieldRef viscosity;                  ///< factor on alpha and beta of the switch of the viscosity
-  FieldRef phi;                        ///< kernel type: 0 total-Lagrangian, 1 Eulerian, between: blended
-  FieldRef active;                     ///< 0: deleted, carries no stress
-  FieldRef released;                   ///< fraction of shear and tension that a failed particle has released
-  FieldRef bulking;                    ///< pressure by bulking of broken material
-  FieldRef a, S_rate, rho_rate, energy_rate, thickness_rate;
-  FieldRef flow;  ///< von Mises stress at the end of the last plastic step; 0: the next prediction evaluates the law
-  FieldRef v_half, S_half, volume_half, rho_half, c;
-  FieldRef pressure;  ///< positive in compression
-  FieldRef F, F_rate;
-  FieldRef gap;  ///< largest |x_b - x_a - F_a (X_b - X_a)| / material h over Eulerian reference neighbours b; -1: no F
-  FieldRef force, heat;  ///< of reference neighbours and contacts
-  FieldRef hourglass;    ///< power that the hourglass stiffness stores
-  FieldRef compression;  ///< largest |mu_ab| of the viscosity
-  FieldRef contact;      ///< in the order of ContactSum
-  // For sums over reference neighbours, with s = -W'(r)/r and r = X_b - X_a:
-  FieldRef K;                 ///< inverse of sum_b V0_b s r (x) r, symmetric, of D dimensions; not as published
-  FieldRef gradient_sum;      ///< sum_b V0_b s r over particles that are not deleted
-  FieldRef kernel_sum;        ///< sum_b V0_b W over these
-  FieldRef N, gradient_mean;  ///< as published, gt_ab = N (g - G W), with N = K/S and G over S
-};
-
-/// Components of ParticleFields::contact.
-struct ContactSum {
-  static constexpr int power = 0,  ///< of contact forces on half the relative velocities [W]
-      stiffness = 1,               ///< [N/m]
-      overlap = 2,                 ///< largest fraction of the stand-off distance used by a contact
-      closing = 3,                 ///< fastest approach of particles of other bodies within the search distance, over
-                                   ///< dp [1/s]
-      size = 4;
 };
 
 /// Results of spatial sums, a record per sorted particle, in the order of the sweep.
@@ -238,6 +200,9 @@ struct StepSums {
 };
 
 struct System {
+  /// fields: owner of the memory of `field`; nullptr: none.
+  explicit System(FieldList* fields = nullptr, FieldNeeds const& needs = {}) : field(fields, needs) {}
+
   bool shared = false;              ///< distributed over several ranks
   bool neighbour_overflow = false;  ///< as in StepSums, for the lists of this rank
   int dimension = 3, bodies = 0;
@@ -246,7 +211,7 @@ struct System {
   BodyConstants const* body = nullptr;
   Range const* part = nullptr;   ///< per body: the local slots
   int const* body_of = nullptr;  ///< per slot
-  ParticleFields field;
+  Fields field;
   Correction* correction = nullptr;  ///< spatial
   double* position = nullptr;        ///< at half time, 3 per slot: input of the cell grid
   DescriptionTable description;

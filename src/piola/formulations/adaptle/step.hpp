@@ -50,7 +50,7 @@ struct Step {
   void sweep() const {
     with_kernel(*s.settings.kernel, LaneKernels{}, [&]<class Shape>() { sweep_space<Shape>(); });
     with_form([&](auto form) { add_material_forces<form()>(); });
-    ParticleFields const& f = s.field;
+    Fields const& f = s.field;
     exec::for_each_block(Range{0, s.contact.targets},
                          ContactSweep<D>{s.contact, s.spatial.slot, s.body, s.body_of, s.bodies, read(f.x),
                                          read(f.v_half), read(f.volume_half), write(f.force), write(f.contact)});

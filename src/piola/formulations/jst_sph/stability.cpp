@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 namespace piola::jst_sph {
@@ -25,17 +26,11 @@ class Kept {
  public:
   /// Saves local slots only: ghosts written by trial steps are updated before they are read.
   explicit Kept(JstBody const& body) : slots_(body.state().slots) {
-    BodyState const& state = body.state();
-    int const D = state.dimension;
-    for (auto const& [field, components] : {std::pair{state.x, D},
-                                            {state.v, D},
-                                            {state.rate, D},
-                                            {state.F, D * D},
-                                            {state.wave_speed, 1},
-                                            {state.volume_ratio, 1},
-                                            {state.filtered_ratio, 1},
-                                            {state.filtered_pressure, 1}})
+    auto const keep = [&](FieldRef const& field, int components) {
       if (field.data != nullptr) parts_.push_back({field, components, values_of(field, components)});
+    };
+    body.each_evolved([&](std::string_view, FieldRef const& field, int components) { keep(field, components); });
+    keep(body.state().volume_ratio, 1);
   }
   void restore() const {
     for (auto const& part : parts_) put(part.field, part.components, part.values);
