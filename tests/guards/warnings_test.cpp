@@ -243,6 +243,12 @@ TEST(Warnings, BodiesThatCannotMeet) {
   EXPECT_TRUE(warnings(mixed).empty()) << "contact by the colour function";
 }
 
+TEST(Warnings, SettingsOfBodiesInSurfaceContactNeedNotBeEqual) {
+  std::string text = two_cubes("adaptle\", description = \"total_lagrangian", 1, "[contact]\nlaw = \"surface\"\n");
+  text.insert(text.rfind("\" }\ninitial_velocity") + 1, ", correction = \"none\"");
+  EXPECT_TRUE(warnings(text).empty());
+}
+
 // Particles may stand before the plane while the surface of their body is behind it.
 TEST(Warnings, SurfacesThatOverlapAtTheStart) {
   auto const plane = [](double x) {

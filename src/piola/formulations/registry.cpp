@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <map>
 
 namespace piola {
 namespace {
@@ -113,10 +114,13 @@ double number_of(FormulationSpec const& spec, std::string_view name, double othe
 
 std::vector<SettingWarning> setting_warnings(Assembly const& assembly) {
   std::vector<SettingWarning> found;
+  std::map<std::string, std::vector<std::size_t>> groups;
+  for (std::size_t b = 0; b < assembly.formulations.size(); ++b) groups[group_name(assembly, b)].push_back(b);
   for (std::size_t b = 0; b < assembly.formulations.size(); ++b)
     for (auto const& entry : all) {
-      BodyWarnings about(assembly, b, found);
-      if (entry.info.name == assembly.formulations[b].name) entry.add_setting_warnings(assembly, b, about);
+      if (entry.info.name != assembly.formulations[b].name) continue;
+      BodyWarnings about(assembly, b, groups[group_name(assembly, b)], found);
+      entry.add_setting_warnings(assembly, b, about);
     }
   return found;
 }

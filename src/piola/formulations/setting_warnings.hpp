@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace piola {
@@ -22,9 +23,13 @@ std::vector<SettingWarning> setting_warnings(Assembly const& assembly);
 /// Collects the warnings about one body.
 class BodyWarnings {
  public:
-  BodyWarnings(Assembly const& assembly, std::size_t body, std::vector<SettingWarning>& found)
-      : assembly_(assembly), body_(body), found_(found) {}
+  /// `assembly` and `found` must outlive this.
+  BodyWarnings(Assembly const& assembly, std::size_t body, std::vector<std::size_t> group,
+               std::vector<SettingWarning>& found)
+      : assembly_(assembly), body_(body), group_(std::move(group)), found_(found) {}
 
+  /// Bodies that the formulation simulates together with this one, which is among them, in ascending order.
+  std::vector<std::size_t> const& group() const { return group_; }
   FormulationSpec const& spec() const { return assembly_.formulations[body_]; }
   MaterialParameters const& material() const { return assembly_.materials[body_]; }
   bool has_support() const;
@@ -40,6 +45,7 @@ class BodyWarnings {
  private:
   Assembly const& assembly_;
   std::size_t body_;
+  std::vector<std::size_t> group_;
   std::vector<SettingWarning>& found_;
 };
 

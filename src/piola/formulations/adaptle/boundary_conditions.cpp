@@ -80,7 +80,7 @@ void BoundaryConditions::evaluate_loads(double time) {
 
 bool BoundaryConditions::holds(Index slot, int c) const { return !held_.empty() && held_[3 * at(slot) + at(c)] != 0; }
 
-/// Forces act at half time and at the places of then, for the whole step.
+/// The forces of half time, at the positions of half time, act for the whole step.
 std::vector<ImpulseSum> BoundaryConditions::impulses(double time, double dt) const {
   std::vector<ImpulseSum> sums(supports_.size() + loads_.size());
   auto const place = [&](std::size_t slot) {

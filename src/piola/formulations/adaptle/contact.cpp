@@ -75,7 +75,7 @@ template <int D>
 exec::ReproducibleSums<1> energy_of_contacts(System const& s) {
   exec::ReproducibleSums<1> sum = energy_of_pairs<D>(
       s, [&](KernelContactPair const& pair, Index i, Index j) { return s.contact.acts(pair, i, j); });
-  for (Range const& own : std::span(s.part, static_cast<std::size_t>(s.bodies)))
+  for (Range const& own : s.local())
     for (Index i = own.first; i < own.last; ++i) add_rigid_contacts<D>(s, i, sum);
   return sum;
 }
@@ -160,16 +160,13 @@ std::vector<KernelContactPair> contact_pairs(int dimension, ContactRule const& r
   return pairs;
 }
 
-bool mark_surface_contact(Assembly const& assembly, std::vector<KernelContactPair>& pairs) {
+void mark_surface_contact(Assembly const& assembly, std::vector<KernelContactPair>& pairs) {
   PIOLA_EXPECTS(pairs.size() == assembly.particles.bodies.size() * assembly.particles.bodies.size());
   auto const& bodies = assembly.particles.bodies;
-  bool any = false;
   for (std::size_t a = 0; a < bodies.size(); ++a)
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      if (a == b || find_pair(assembly.contact_pairs, bodies[a].name, bodies[b].name) == nullptr) continue;
-      any = pairs[a * bodies.size() + b].surfaces = true;
-    }
-  return any;
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      if (a != b && find_pair(assembly.contact_pairs, bodies[a].name, bodies[b].name) != nullptr)
+        pairs[a * bodies.size() + b].surfaces = true;
 }
 
 void exclude_tied_pairs(std::vector<contact::TieRule> const& ties, std::size_t bodies,

@@ -32,8 +32,8 @@ void exclude_tied_pairs(std::vector<contact::TieRule> const& ties, std::size_t b
                         std::vector<KernelContactPair>& pairs);
 
 /// Marks the pairs of bodies that have surface contact first: those of the case's contact_pairs, to which reading the
-/// case adds total-Lagrangian bodies that touch at the start. Returns whether there are any.
-bool mark_surface_contact(Assembly const& assembly, std::vector<KernelContactPair>& pairs);
+/// case adds total-Lagrangian bodies that touch at the start.
+void mark_surface_contact(Assembly const& assembly, std::vector<KernelContactPair>& pairs);
 
 /// Potential energy of kernel contact [J] that has appeared because surfaces were lost since `lost_before`
 /// (LostSurfaces::by_slot). The lists must be those of the last step. Collective.

@@ -11,8 +11,8 @@
 
 namespace piola::adaptle {
 
-/// Total-Lagrangian particles that become Eulerian, or are deleted: requests, surfaces that are lost, and what it
-/// changes in energy and momentum.
+/// Conversion of total-Lagrangian particles to Eulerian ones, and their deletion: requests, lost surfaces, and changes
+/// of energy and momentum.
 class Conversion {
  public:
   /// All arguments must outlive this.

@@ -15,8 +15,8 @@ double work_of(ParticleData const& particles, Index slot) {
   constexpr double eulerian = 1.5, corrected = 3.5, points = 0.3;
   if (!(particles.fields().active.at(slot) > 0)) return points;
   double const phi = particles.fields().phi.at(slot);
-  double const is_eulerian = particles.system().settings.corrected ? corrected : eulerian;
-  return points + (phi < 1 ? 1 - points : 0) + (phi > 0 ? is_eulerian - points : 0);
+  double const spatial = particles.system().settings.corrected ? corrected : eulerian;
+  return points + (phi < 1 ? 1 - points : 0) + (phi > 0 ? spatial - points : 0);
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ class Distribution {
   void assign(std::vector<Partition> cuts, System& system);
   /// Builds the exchanges with other ranks, if there are any, for the tables of the local particles. Collective.
   void connect(ParticleData const& particles, ReferenceLists const& neighbours);
-  /// A partition that pays by the measured work; nothing: the present one stays. Call once before each step;
-  /// collective.
+  /// Returns a partition that saves time by the measured work, or nothing: the present one stays. Call once before
+  /// each step. Collective.
   std::optional<std::vector<Partition>> plan(ParticleData const& particles);
   /// Sends the fields of a checkpoint, except the replicated ones, from the old owners of particles to the present
   /// ones.

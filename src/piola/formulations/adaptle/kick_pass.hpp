@@ -5,7 +5,7 @@
 /// From the sums at half time to velocities, positions, densities and energies at the end of a step.
 namespace piola::adaptle::inline PIOLA_BACKEND {
 
-/// Sums and extrema over the particles of a block, in the order of Measures.
+/// Sums and extrema over the particles of a block: their order in System::partial.
 struct BlockMeasures {
   static constexpr int contact = 0, hourglass = 1, rigid = 2, held = 3, load = 4, viscous = 5, artificial = 6, sums = 7,
                        dt = 7, overlap = 8, conversion_requests = 9, size = 10;

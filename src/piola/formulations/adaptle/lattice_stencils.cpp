@@ -34,13 +34,19 @@ GroupShape shape_of_group(std::vector<Index> const& distance, int lanes) {
   return shape;
 }
 
+template <int D, class Shape>
+void evaluate(double h, double square, double& s, double& W) {
+  Kernel<D, Shape>(h).evaluate(square, s, W);
+}
+
 }  // namespace
 
-void kernel_of(piola::Kernel const& kernel, int dimension, double h, double square, double& s, double& W) {
-  with_kernel(kernel, LaneKernels{}, [&]<class Shape>() {
-    if (dimension == 2) return Kernel<2, Shape>(h).evaluate(square, s, W);
-    Kernel<3, Shape>(h).evaluate(square, s, W);
-  });
+KernelFunction kernel_function(piola::Kernel const& kernel, int dimension) {
+  KernelFunction function = nullptr;
+  with_kernel(kernel, LaneKernels{},
+              [&]<class Shape>() { function = dimension == 2 ? &evaluate<2, Shape> : &evaluate<3, Shape>; });
+  PIOLA_ENSURES(function != nullptr);
+  return function;
 }
 
 double lattice_square(Body const& body, std::array<int, 3> const& from, std::array<int, 3> const& to) {
@@ -79,7 +85,7 @@ void LatticeStencils::find_offsets(BodyInput const& input, int dimension, bool r
       for (n[0] = -reach_[0]; n[0] <= reach_[0]; ++n[0]) {
         double s = 0, W = 0;
         double const square = lattice_square(body, {}, n);
-        if (square > 0) kernel_of(input.kernel, dimension, input.h, square, s, W);
+        if (square > 0) input.kernel(input.h, square, s, W);
         number_.push_back(W > 0 ? static_cast<std::int32_t>(offsets_.size()) : -1);
         if (!(W > 0)) continue;
         StencilOffset o{};

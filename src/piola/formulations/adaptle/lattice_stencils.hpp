@@ -8,6 +8,11 @@
 
 namespace piola::adaptle {
 
+/// Sets s = -W'(r)/r and W(r) of a kernel of smoothing length h [m], at the squared distance `square` [m2].
+using KernelFunction = void (*)(double h, double square, double& s, double& W);
+/// The function of one of LaneKernels.
+KernelFunction kernel_function(piola::Kernel const& kernel, int dimension);
+
 /// Reference neighbours of a body on a regular lattice, as patterns of groups of lanes, and the memory of the neighbour
 /// data.
 class LatticeStencils {
@@ -17,7 +22,7 @@ class LatticeStencils {
     Body const& geometry;
     Range own;
     double h;
-    piola::Kernel const& kernel;
+    KernelFunction kernel;
   };
   /// begin, neighbour: lists of the local particles. Bodies that are no lattice, or whose groups of lanes have too few
   /// common neighbours, keep their lists: is_lattice() is false. components: of a record. Collective.
@@ -56,8 +61,5 @@ class LatticeStencils {
 
 /// The squared distance between two lattice particles [m2]: bit-identical for all pairs of one offset.
 double lattice_square(Body const& body, std::array<int, 3> const& from, std::array<int, 3> const& to);
-
-/// s = -W'(r)/r and W(r) of one of LaneKernels.
-void kernel_of(piola::Kernel const& kernel, int dimension, double h, double square, double& s, double& W);
 
 }  // namespace piola::adaptle

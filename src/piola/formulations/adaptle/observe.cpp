@@ -89,7 +89,7 @@ void observe_body(Particles const& particles, ParticleSet const& set, int number
   System const& s = particles.system();
   Fields const& f = particles.fields();
   Body const& body = set.bodies[at(number)];
-  LatticeLineHalo* const lines = particles.lines(number);
+  LatticeLineHalo* const lines = particles.distribution().lines(number);
   double const rho0 = s.body[number].rho0;
   std::vector<double> pressures(lines != nullptr ? 0 : static_cast<std::size_t>(body.last - body.first));
   exec::ReproducibleSums<1>& internal = sums.internal.emplace_back();
@@ -131,9 +131,9 @@ void sample(Particles const& particles, std::string_view field, std::span<double
   OutputField const& found = find_output_field(field, offered);
   if (!comm::is_parallel()) return observe_each(particles, [&](ParticleOutput const& p) { put(found, p, values); });
   auto const width = static_cast<std::size_t>(found.components);
-  std::vector<double> mine(particles.local_particles().count(comm::rank()) * width);
+  std::vector<double> mine(particles.distribution().partition().count(comm::rank()) * width);
   sample_local_slots(particles, field, mine);
-  particles.local_particles().collect(width, std::move(mine), values);
+  particles.distribution().partition().collect(width, std::move(mine), values);
 }
 
 Diagnostics observe(Particles const& particles, ParticleSet const& set) {
@@ -153,7 +153,7 @@ Diagnostics observe(Particles const& particles, ParticleSet const& set) {
   exec::ReproducibleSums<1> all;
   for (auto const& of_body : sums.internal) all.add(of_body);
   double const internal = all.value();
-  d.actions = particles.actions().report();
+  d.actions = particles.boundary().resultants().report();
   d.strain_energy = internal + energy_totals.contact_energy + energy_totals.hourglass_energy;
   d.external_work = energy_totals.external_work;
   d.damping_loss = energy_totals.damping_loss;

@@ -210,7 +210,7 @@ void Particles::read_motion(std::span<std::int64_t const> ids, std::span<std::ar
   std::vector<double> motion(6 * ids.size(), 0);
   for (std::size_t k = 0; k < ids.size(); ++k) {
     auto const slot = static_cast<Index>(ids[k]);
-    if (!is_local(slot)) continue;
+    if (!system().is_local(slot)) continue;
     std::ranges::copy(point_at(fields().x.ref(), slot, 3), &motion[6 * k]);
     std::ranges::copy(point_at(fields().v.ref(), slot, 3), &motion[6 * k + 3]);
   }

@@ -9,7 +9,6 @@
 #include "piola/formulations/adaptle/reference_lists.hpp"
 #include "piola/formulations/adaptle/spatial_lists.hpp"
 #include <array>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,16 +30,16 @@ class Particles {
   void damp(double factor);
   double kinetic_energy() const;
   double stable_time_step() const { return energy_totals_.next_dt; }
-  double next_end_time() const { return boundary_.next_end_time(energy_totals_.time); }
 
+  ParticleData const& data() const { return data_; }
   System const& system() const { return data_.system(); }
   Fields& fields() { return data_.fields(); }
   Fields const& fields() const { return data_.fields(); }
   EnergyTotals& energy_totals() { return energy_totals_; }
   EnergyTotals const& energy_totals() const { return energy_totals_; }
-  /// As BoundaryConditions::resultants(). Collective.
-  Resultants actions() const { return boundary_.resultants(); }
-  void restore_actions(std::span<double const> state) { boundary_.restore_resultants(state); }
+  BoundaryConditions& boundary() { return boundary_; }
+  BoundaryConditions const& boundary() const { return boundary_; }
+  Distribution const& distribution() const { return distribution_; }
   StepTimings const& seconds() const { return seconds_; }
   FailureSlot const& failure() const { return data_.failure(); }
   /// Whether a particle has more neighbours than can be listed.
@@ -49,25 +48,12 @@ class Particles {
   int reference_neighbours(Index i) const { return material_.built() ? material_.neighbours(i) : 0; }
   std::size_t bytes() const { return data_.bytes() + material_.bytes() + spatial_.bytes(); }
 
-  /// Calls f(field) for all fields of a checkpoint (ParticleData::each_saved).
-  template <class Set, class F>
-  void each_saved(Set& fields, F const& f) const {
-    data_.each_saved(fields, f);
-  }
-  bool is_saved(Field const& field, Index slot) const { return data_.is_saved(field, slot); }
-  std::vector<double>& rigid_centres() { return boundary_.rigid_shapes().centres(); }
-  std::vector<double> const& rigid_centres() const { return boundary_.rigid_shapes().centres(); }
   /// Rebuilds derived data after a checkpoint has been loaded.
   void resumed();
 
   /// Motion of these particles, replicated [m], [m/s]. Collective.
   void read_motion(std::span<std::int64_t const> ids, std::span<std::array<double, 3>> x,
                    std::span<std::array<double, 3>> v) const;
-  bool is_local(Index slot) const { return data_.system().is_local(slot); }
-  double contact_mass(std::int64_t id) const { return data_.contact_mass(id); }
-  ParticlePartition const& local_particles() const { return distribution_.partition(); }
-  LatticeLineHalo* lines(int body) const { return distribution_.lines(body); }
-  std::optional<RepartitionStatistics> repartition_statistics() const { return distribution_.statistics(); }
   LostSurfaces const& lost_surfaces() const { return conversion_.lost_surfaces(); }
 
  private:

@@ -35,7 +35,7 @@ void ReferenceLists::build(ParticleSet const& set, std::vector<BodyConstants> co
   particles_ = static_cast<Index>(set.size());
   own_ = own;
   equations_ = settings.equations;
-  kernel_ = settings.kernel;
+  kernel_ = kernel_function(*settings.kernel, set.dimension);
   begin_ = LazyZeroArray<Offset>(at(particles_) + 1);
   filled_ = LazyZeroArray<std::uint8_t>(at(particles_));
   part_ = LazyZeroArray<std::uint8_t>(at(particles_) + 16);
@@ -59,7 +59,7 @@ void ReferenceLists::build(ParticleSet const& set, std::vector<BodyConstants> co
   int const components =
       set.dimension == 2 ? MaterialRecord<2>::values(equations_) : MaterialRecord<3>::values(equations_);
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    rows_.emplace_back(set, LatticeStencils::BodyInput{set.bodies[b], own[b], bodies[b].reference_h, *kernel_}, begin_,
+    rows_.emplace_back(set, LatticeStencils::BodyInput{set.bodies[b], own[b], bodies[b].reference_h, kernel_}, begin_,
                        neighbour_, lanes, equations_.rounds_gradients(), components);
   for (LatticeStencils& rows : rows_) row_views_.push_back(rows.view());
   if (std::all_of(rows_.begin(), rows_.end(), [](LatticeStencils const& rows) { return rows.is_lattice(); })) return;
@@ -136,19 +136,18 @@ void ReferenceLists::list(ParticleSet const& set, BodyInput const& body, int lan
       for (std::size_t c = 0; c < 3; ++c) square += (y[c] - x[c]) * (y[c] - x[c]);
       // On a lattice: bit-identical for all pairs of one offset, like the patterns.
       if (lattice) square = lattice_square(geometry, place[at(i)], place[at(j)]);
-      add_pair(set.dimension, constants.reference_h, j, square);
+      add_pair(constants.reference_h, j, square);
     }
     std::size_t const found = neighbour_.size();
-    while (neighbour_.size() % static_cast<std::size_t>(lanes) != 0)
-      add_pair(set.dimension, constants.reference_h, particles_, 1e300);
+    while (neighbour_.size() % static_cast<std::size_t>(lanes) != 0) add_pair(constants.reference_h, particles_, 1e300);
     filled_[at(i)] = static_cast<std::uint8_t>(neighbour_.size() - found);
     begin_[at(i) + 1] = static_cast<Offset>(neighbour_.size());
   }
 }
 
-void ReferenceLists::add_pair(int dimension, double h, Index j, double square) {
+void ReferenceLists::add_pair(double h, Index j, double square) {
   double s = 0, W = 0;
-  if (j < particles_) kernel_of(*kernel_, dimension, h, square, s, W);
+  if (j < particles_) kernel_(h, square, s, W);
   neighbour_.push_back(j);
   if (equations_.rounds_gradients())
     gradient_.push_back(static_cast<float>(s));
@@ -204,7 +203,7 @@ void ReferenceLists::correct(Fields& fields, std::vector<BodyConstants> const& b
   for (std::size_t b = 0; b < bodies.size(); ++b)
     for (Index i = own_[b].first; i < own_[b].last; ++i) {
       double none = 0, W0 = 0, G[3]{}, xW[3]{}, moments[9]{};
-      kernel_of(*kernel_, dimension, bodies[b].reference_h, 0, none, W0);
+      kernel_(bodies[b].reference_h, 0, none, W0);
       double S = fields.volume.at(i) * W0;
       for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
         Index const j = neighbour_[at(k)];

@@ -70,7 +70,7 @@ class ReferenceLists {
   template <int D>
   void allocate_records();
   void mark_mixed(Fields const& fields);
-  void add_pair(int dimension, double h, Index j, double square);
+  void add_pair(double h, Index j, double square);
   void correct(Fields& fields, std::vector<BodyConstants> const& bodies, int dimension);
   void invert(Fields& fields, int dimension);
   template <class F>
@@ -83,7 +83,7 @@ class ReferenceLists {
 
   Index particles_ = 0;
   EquationSet equations_;
-  piola::Kernel const* kernel_ = nullptr;
+  KernelFunction kernel_ = nullptr;
   bool deleted_ = false;
   std::vector<Range> own_;
   std::vector<Index> edge_;  ///< local particles with ghost neighbours

@@ -57,8 +57,8 @@ class Solver final : public Formulation, public Observables, public CoupledParti
         particles_(assembly, read_options(assembly), choose_backend(assembly.backend.c_str())) {}
 
   double stable_time_step() const override {
-    return clip_step_to_end_time(particles_.stable_time_step(),
-                                 particles_.next_end_time() - particles_.energy_totals().time);
+    double const time = particles_.energy_totals().time;
+    return clip_step_to_end_time(particles_.stable_time_step(), particles_.boundary().next_end_time(time) - time);
   }
   StepEstimate step_estimate() const override {
     StepEstimate rule;
@@ -76,12 +76,12 @@ class Solver final : public Formulation, public Observables, public CoupledParti
     particles_.read_motion(ids, x, v);
   }
   void read_masses(std::span<std::int64_t const> ids, std::span<double> m) const override {
-    for (std::size_t k = 0; k < ids.size(); ++k) m[k] = particles_.contact_mass(ids[k]);
+    for (std::size_t k = 0; k < ids.size(); ++k) m[k] = particles_.data().contact_mass(ids[k]);
   }
   void add_velocities(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override {
     for (std::size_t k = 0; k < ids.size(); ++k) {
       auto const slot = static_cast<Index>(ids[k]);
-      if (!particles_.is_local(slot)) continue;
+      if (!particles_.system().is_local(slot)) continue;
       for (std::size_t c = 0; c < 3; ++c) particles_.fields().v.at(slot, static_cast<int>(c)) += change[k][c];
     }
   }
@@ -101,7 +101,7 @@ class Solver final : public Formulation, public Observables, public CoupledParti
     adaptle::sample(particles_, field, values);
   }
   std::optional<std::vector<std::int64_t>> local_particles() const override {
-    return comm::is_parallel() ? std::optional(particles_.local_particles().ids()) : std::nullopt;
+    return comm::is_parallel() ? std::optional(particles_.distribution().partition().ids()) : std::nullopt;
   }
   void sample_local(std::string_view field, std::span<double> values) const override {
     comm::is_parallel() ? adaptle::sample_local_slots(particles_, field, values) : sample(field, values);
@@ -114,7 +114,7 @@ class Solver final : public Formulation, public Observables, public CoupledParti
     all.seconds = {
         {"neighbour_lists", s.lists}, {"sweeps", s.sweeps}, {"points", s.points}, {"conversion", s.conversion}};
     all.memory_bytes = particles_.bytes();
-    all.repartition = particles_.repartition_statistics();
+    all.repartition = particles_.distribution().statistics();
     return all;
   }
 
@@ -124,14 +124,14 @@ class Solver final : public Formulation, public Observables, public CoupledParti
     return {0, particles_.system().particles, ids, field.components()};
   }
   std::vector<Index> local_ids() const {
-    auto const ids = particles_.local_particles().ids();
+    auto const ids = particles_.distribution().partition().ids();
     return {ids.begin(), ids.end()};
   }
   /// f(value, slot, component) for a field of the particles of this rank.
   template <class Values, class F>
   void each_value(Field const& field, Values& mine, F const& f) const {
     auto const width = at(field.components());
-    particles_.local_particles().each(comm::rank(), [&](Index i, std::size_t k) {
+    particles_.distribution().partition().each(comm::rank(), [&](Index i, std::size_t k) {
       for (std::size_t c = 0; c < width; ++c) f(mine[k * width + c], i, static_cast<int>(c));
     });
   }
@@ -168,22 +168,23 @@ std::optional<Failure> Solver::failure() const {
 
 void Solver::save(StateWriter& writer) const {
   std::vector<Index> const ids = local_ids();
-  particles_.each_saved(particles_.fields(), [&](Field const& field) {
+  particles_.data().each_saved(particles_.fields(), [&](Field const& field) {
     std::vector<double> mine(ids.size() * at(field.components()));
-    each_value(field, mine,
-               [&](double& value, Index i, int c) { value = particles_.is_saved(field, i) ? field.at(i, c) : 0; });
+    each_value(field, mine, [&](double& value, Index i, int c) {
+      value = particles_.data().is_saved(field, i) ? field.at(i, c) : 0;
+    });
     writer.put_rows(field.name(), rows_of(field, ids), mine);
   });
   writer.put("books", particles_.energy_totals().state());
-  writer.put("rigid_centres", particles_.rigid_centres());
-  writer.put("actions", particles_.actions().state());
+  writer.put("rigid_centres", particles_.boundary().rigid_shapes().centres());
+  writer.put("actions", particles_.boundary().resultants().state());
 }
 
 /// Kernel types are replicated.
 void Solver::load(StateReader& reader) {
   Fields& fields = particles_.fields();
   std::vector<Index> const ids = local_ids();
-  particles_.each_saved(fields, [&](Field& field) {
+  particles_.data().each_saved(fields, [&](Field& field) {
     if (&field == &fields.phi || &field == &fields.active) {
       std::vector<double> all(at(particles_.system().particles));
       reader.get(field.name(), all);
@@ -193,14 +194,14 @@ void Solver::load(StateReader& reader) {
     std::vector<double> mine(ids.size() * at(field.components()));
     reader.get_rows(field.name(), rows_of(field, ids), mine);
     each_value(field, mine, [&](double value, Index i, int c) {
-      if (particles_.is_saved(field, i)) field.at(i, c) = value;
+      if (particles_.data().is_saved(field, i)) field.at(i, c) = value;
     });
   });
   load_part(reader, "books", particles_.energy_totals());
-  reader.get("rigid_centres", particles_.rigid_centres());
-  std::vector<double> actions = particles_.actions().state();
+  reader.get("rigid_centres", particles_.boundary().rigid_shapes().centres());
+  std::vector<double> actions = particles_.boundary().resultants().state();
   reader.get("actions", actions);
-  particles_.restore_actions(actions);
+  particles_.boundary().restore_resultants(actions);
   particles_.resumed();
 }
 

@@ -239,7 +239,7 @@ struct StepSums {
 
 struct System {
   bool shared = false;              ///< distributed over several ranks
-  bool neighbour_overflow = false;  ///< as in Measures, for the lists of this rank
+  bool neighbour_overflow = false;  ///< as in StepSums, for the lists of this rank
   int dimension = 3, bodies = 0;
   Index particles = 0;
   Settings settings;

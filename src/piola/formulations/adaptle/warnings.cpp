@@ -148,31 +148,27 @@ void warn_of_bending(Assembly const& assembly, std::size_t body, BodyOptions con
                            *least));
 }
 
-bool is_adaptle(FormulationSpec const& spec) { return spec.name == "adaptle"; }
-
-/// The bodies of AdapTLE alone, as far as read_options() needs them: the settings that they must have in common do not
-/// concern bodies of other formulations.
-Assembly bodies_of_adaptle(Assembly const& whole) {
+/// Options of a group of bodies. Only these bodies must have settings in common.
+Options options_of(Assembly const& whole, std::vector<std::size_t> const& group) {
   Assembly own;
   own.particles.dimension = whole.particles.dimension;
   own.cfl = whole.cfl;
   own.contact = whole.contact;
-  for (std::size_t b = 0; b < whole.formulations.size(); ++b) {
-    if (!is_adaptle(whole.formulations[b])) continue;
+  for (std::size_t const b : group) {
     own.formulations.push_back(whole.formulations[b]);
     own.materials.push_back(whole.materials[b]);
     own.particles.bodies.push_back(whole.particles.bodies[b]);
   }
-  return own;
+  return read_options(own);
 }
 
 }  // namespace
 
 void add_setting_warnings(Assembly const& assembly, std::size_t body, BodyWarnings& warnings) {
-  Options const all = read_options(bodies_of_adaptle(assembly));
-  auto const first = assembly.formulations.begin();
-  auto const number = std::count_if(first, first + static_cast<std::ptrdiff_t>(body), is_adaptle);
-  BodyOptions const& o = all.bodies[static_cast<std::size_t>(number)];
+  std::vector<std::size_t> const& group = warnings.group();
+  Options const all = options_of(assembly, group);
+  auto const place = std::find(group.begin(), group.end(), body) - group.begin();
+  BodyOptions const& o = all.bodies[static_cast<std::size_t>(place)];
   warn_of_description(o, all, warnings);
   warn_of_mixture(all, warnings);
   warn_of_forces(o, all, assembly.particles.dimension, warnings);

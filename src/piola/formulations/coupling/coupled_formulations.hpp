@@ -32,6 +32,9 @@ struct FormulationGroup {
   std::optional<std::size_t> body_in_part(std::size_t body) const;
 };
 
+/// FormulationGroup::name of a body: equal for bodies that one formulation simulates together.
+std::string group_name(Assembly const& whole, std::size_t body);
+
 /// Returns one part per formulation, in the order of their first bodies. Rigid shapes and the contact rule go to the
 /// parts with kernel contact. With surface contact, each of their bodies becomes a part without them instead.
 std::vector<FormulationGroup> split_by_formulation(Assembly const& whole);

@@ -157,19 +157,24 @@ std::optional<std::size_t> FormulationGroup::body_in_part(std::size_t body) cons
   return std::nullopt;
 }
 
+std::string group_name(Assembly const& whole, std::size_t body) {
+  PIOLA_EXPECTS(body < whole.formulations.size());
+  std::string const& formulation = whole.formulations[body].name;
+  auto const info = find_formulation(formulation);
+  bool const alone = info && info->contact && whole.contact.law == ContactRule::Law::surface;
+  return alone ? formulation + "." + whole.particles.bodies[body].name : formulation;
+}
+
 std::vector<FormulationGroup> split_by_formulation(Assembly const& whole) {
   PIOLA_EXPECTS(whole.formulations.size() == whole.particles.bodies.size());
   std::vector<FormulationGroup> parts;
   for (std::size_t b = 0; b < whole.formulations.size(); ++b) {
     Body const& body = whole.particles.bodies[b];
-    std::string const& formulation = whole.formulations[b].name;
-    auto const info = find_formulation(formulation);
-    bool const alone = info && info->contact && whole.contact.law == ContactRule::Law::surface;
-    std::string const name = alone ? formulation + "." + body.name : formulation;
+    std::string const name = group_name(whole, b);
     auto part = std::find_if(parts.begin(), parts.end(), [&](FormulationGroup const& p) { return p.name == name; });
     if (part == parts.end()) {
       part = parts.emplace(parts.end());
-      part->formulation = formulation;
+      part->formulation = whole.formulations[b].name;
       part->name = name;
     }
     std::int64_t const here = part->blocks.empty() ? 0 : part->blocks.back().here + part->blocks.back().count;
