@@ -63,11 +63,12 @@ struct Failure {
 
 /// Estimate of the step lengths of a run.
 struct StepEstimate {
-  double stable = 0;   ///< s, the step that the current state allows after the first, shorter steps
-  double settled = 0;  ///< s, the step once the run has settled
-  double first = 0;    ///< s
-  double growth = 1;   ///< a step may be longer than the one before by this factor; 1: no bound
-  std::string limit;   ///< what limits the step, in words
+  double stable = 0;           ///< s, the step that the current state allows after the first, shorter steps
+  double settled = 0;          ///< s, the step once the run has settled
+  double first = 0;            ///< s
+  double growth = 1;           ///< a step may be longer than the one before by this factor; 1: no bound
+  std::string limit;           ///< the bound that makes `stable` so short, in words
+  std::int64_t particle = -1;  ///< id of the particle where it does; -1: none can be named
 };
 
 /// Cost of a formulation and quality of its set-up, for the summary, estimates and benchmarks.

@@ -42,6 +42,7 @@ void GuardObserver::observe(Formulation const& formulation, TimeState const& mom
   Diagnostics const own = row == nullptr ? formulation.diagnose() : *row;
   scale_.observe(own, moment);
   FieldCache fields(formulation, results_.particles);
+  note_shorter_step(formulation.step_estimate(), moment, fields);
   GuardInput const look{formulation, moment, own, scale_, fields, last};
   for (std::size_t k = 0; k < guards_.size(); ++k) {
     guards_[k]->look(look);
@@ -49,6 +50,20 @@ void GuardObserver::observe(Formulation const& formulation, TimeState const& mom
     told_[k] = 1;
     results_.journal.report(fmt::format("so far, at t = {:.6g} s: {}", moment.time, guards_[k]->words()));
   }
+}
+
+/// Logs what limits the step each time it has halved. Bounds of the next step: those of the last one are gone.
+void GuardObserver::note_shorter_step(StepEstimate const& next, TimeState const& moment, FieldCache& fields) {
+  if (moment.step == 0 || moment.cut_to_end || moment.bounded_by_max_step) return;
+  longest_dt_ = std::max(longest_dt_, moment.dt);
+  if (!(moment.dt < 0.5 * std::min(longest_dt_, noted_dt_))) return;
+  noted_dt_ = moment.dt;
+  std::string const where =
+      next.particle < 0
+          ? ""
+          : ", at " + suspect(fields, static_cast<std::size_t>(next.particle), moment.time).text(results_.particles);
+  results_.journal.note(fmt::format("t = {:.6g} s: the step fell to {:.3g} s, limited by {}{}", moment.time, moment.dt,
+                                    next.limit, where));
 }
 
 void GuardObserver::finish(Formulation const&, TimeState const&, RunStatus) {

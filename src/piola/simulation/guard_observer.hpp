@@ -3,6 +3,7 @@
 #include "piola/guards/energy_jump.hpp"
 #include "piola/guards/guard.hpp"
 #include "piola/simulation/observers.hpp"
+#include <limits>
 
 namespace piola {
 
@@ -20,6 +21,7 @@ class GuardObserver : public Observer {
   std::optional<std::vector<GuardNumbers>> report() const;
 
  private:
+  void note_shorter_step(StepEstimate const& next, TimeState const& moment, FieldCache& fields);
   Results results_;
   HistoryObserver const& history_;
   EnergyScale scale_;
@@ -27,6 +29,7 @@ class GuardObserver : public Observer {
   Guards guards_;        ///< none if they are off
   bool kicked_ = false;  ///< the case has a one-step initial pressure, whose energy no column contains
   double last_look_ = 0;
+  double longest_dt_ = 0, noted_dt_ = std::numeric_limits<double>::infinity();  ///< of note_shorter_step() [s]
   std::vector<double> told_;  ///< by guard: whether its warning has been shown during the run
 };
 

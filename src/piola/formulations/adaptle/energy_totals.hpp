@@ -24,6 +24,7 @@ class EnergyTotals {
   double converted = 0, by_guard = 0, converted_mass = 0, energy_change = 0, momentum_change = 0, deleted = 0;
   double overlap = 0;
   double time = 0, next_dt = 0, damping_loss = 0, hourglass_energy = 0;
+  StepLimiter limiter;         ///< of next_dt; not in checkpoints: unknown until the first step after a resume
   double artificial_work = 0;  ///< energy that artificial stress takes from motion, of either sign
 
   /// Adds the powers of a step of dt [s], and takes over its stable step.
@@ -35,6 +36,7 @@ class EnergyTotals {
     external_work += dt * (m.held_power + m.load_power + m.rigid_power);
     overlap = std::max(overlap, m.overlap);
     next_dt = m.dt;
+    limiter = m.limiter;
   }
 
   /// For a checkpoint.

@@ -69,7 +69,7 @@ struct StepEnd {
         failure(s.failure) {}
 
   PIOLA_FN void operator()(Range block, BlockScratch const& scratch, double* m) const {
-    Lanes least(1e300), overlap(0.0), sums[BlockMeasures::sums];
+    Lanes least(1e300), limiter(0.0), limiting_group(0.0), overlap(0.0), sums[BlockMeasures::sums];
     for (Lanes& sum : sums) sum = Lanes(0.0);
     each_group(block, [&](Group g) {
       Index const i = g.first;
@@ -88,17 +88,34 @@ struct StepEnd {
       if (rigid_power != nullptr) add(BlockMeasures::rigid, load<Lanes>(rigid_power + i));
       Mat<3, Lanes> inverse_F = identity<3, Lanes>();
       if (material.used && any(phi.scalar<Lanes>(i) < 1.0)) inverse_F = inverse(F.matrix<Lanes>(i));
-      Lanes const step = limit(g, scratch, L, inverse_F);
-      least = StepLimit::shorter(least, select(real, step, Lanes(1e300)));
+      Lanes here;
+      Lanes const step = limit(g, scratch, L, inverse_F, here);
+      Lanes const bound = select(real, step, Lanes(1e300));
+      auto const shortest = bound < least;
+      limiter = select(shortest, here, limiter);
+      limiting_group = select(shortest, Lanes(static_cast<double>(i)), limiting_group);
+      least = StepLimit::shorter(least, bound);
       m[BlockMeasures::conversion_requests] += make_requests(g, inverse_F);
       check(g);
     });
     for (int k = 0; k < BlockMeasures::sums; ++k) m[k] += sum_of_lanes(sums[k]);
     m[BlockMeasures::dt] = -largest_of(-least);
+    name_limiter(least, limiter, limiting_group, m);
     m[BlockMeasures::overlap] = largest_of(overlap);
   }
 
  private:
+  /// Stores the first particle with the smallest step, whatever the number of lanes.
+  PIOLA_FN static void name_limiter(Lanes const& least, Lanes const& limiter, Lanes const& group, double* m) {
+    m[BlockMeasures::limiting_slot] = -1;
+    for (int l = 0; l < lane_count; ++l) {
+      double const slot = lane(group, l) + l, first = m[BlockMeasures::limiting_slot];
+      if (lane(least, l) > m[BlockMeasures::dt] || (first >= 0 && first < slot)) continue;
+      m[BlockMeasures::limiter] = lane(limiter, l);
+      m[BlockMeasures::limiting_slot] = slot;
+    }
+  }
+
   PIOLA_FN void switch_viscosity(Group g, Mat<3, Lanes> const& L) const {
     Index const i = g.first;
     Lanes const sound = c.scalar<Lanes>(i);
@@ -117,8 +134,8 @@ struct StepEnd {
     }
   }
 
-  PIOLA_FN Lanes limit(Group g, BlockScratch const& scratch, Mat<3, Lanes> const& L,
-                       Mat<3, Lanes> const& inverse_F) const {
+  PIOLA_FN Lanes limit(Group g, BlockScratch const& scratch, Mat<3, Lanes> const& L, Mat<3, Lanes> const& inverse_F,
+                       Lanes& limiter) const {
     Index const i = g.first;
     Lanes const one(1.0), none(0.0), divergence = magnitude(trace(L));
     auto const lagrangian = phi.scalar<Lanes>(i) < 1.0;
@@ -132,8 +149,9 @@ struct StepEnd {
         dot(acceleration, acceleration),
         mass.scalar<Lanes>(i),
         touching ? contact.scalar<Lanes>(i, ContactSum::stiffness) : none,
-        select(divergence > closing, divergence, closing)};
-    return limits.step(settings.cfl, body.h);
+        divergence,
+        closing};
+    return limits.step(settings.cfl, body.h, limiter);
   }
 
   /// Sets conversion requests: 1: with the neighbours, 2: alone, 0: none. Returns the number of requests.

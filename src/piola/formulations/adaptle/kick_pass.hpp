@@ -8,7 +8,7 @@ namespace piola::adaptle::inline PIOLA_BACKEND {
 /// Sums and extrema over the particles of a block, in the order of Measures.
 struct BlockMeasures {
   static constexpr int contact = 0, hourglass = 1, rigid = 2, held = 3, load = 4, viscous = 5, artificial = 6, sums = 7,
-                       dt = 7, overlap = 8, conversion_requests = 9, size = 10;
+                       dt = 7, overlap = 8, conversion_requests = 9, limiter = 10, limiting_slot = 11, size = 12;
 };
 
 /// Data of the particles of a block that the parts of the end of a step share.

@@ -64,7 +64,9 @@ void Particles::start() {
   backend_->predict(s, 0);
   if (exchanges != nullptr) exchanges->after_prediction(s);
   sweep(0);
-  energy_totals_.next_dt = std::min(energy_totals_.next_dt, backend_->finish(s, 0).dt);
+  StepSums const m = backend_->finish(s, 0);
+  if (m.dt <= energy_totals_.next_dt) energy_totals_.limiter = m.limiter;
+  energy_totals_.next_dt = std::min(energy_totals_.next_dt, m.dt);
   seconds_ = {};
   distribution_.busy() = 0;
 }

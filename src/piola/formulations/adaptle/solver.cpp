@@ -63,9 +63,8 @@ class Solver final : public Formulation, public Observables, public CoupledParti
   StepEstimate step_estimate() const override {
     StepEstimate rule;
     rule.stable = rule.settled = rule.first = particles_.stable_time_step();
-    rule.limit =
-        fmt::format("waves: run.cfl h / c with run.cfl = {}; in the run also by viscosity, accelerations and contact",
-                    particles_.system().settings.cfl);
+    rule.limit = limit_text();
+    rule.particle = particles_.energy_totals().limiter.slot;
     return rule;
   }
   void step(double time, double dt) override { particles_.step(time, dt); }
@@ -119,6 +118,7 @@ class Solver final : public Formulation, public Observables, public CoupledParti
   }
 
  private:
+  std::string limit_text() const;
   /// The rows of a field of the local particles, whose ids are given.
   DistributedRows rows_of(Field const& field, std::vector<Index> const& ids) const {
     return {0, particles_.system().particles, ids, field.components()};
@@ -139,6 +139,19 @@ class Solver final : public Formulation, public Observables, public CoupledParti
   ParticleSet set_;
   Particles particles_;
 };
+
+std::string Solver::limit_text() const {
+  switch (particles_.energy_totals().limiter.kind) {
+    case StepLimiter::acceleration: return "acceleration: 0.25 sqrt(h / a)";
+    case StepLimiter::contact_stiffness: return "stiffness k of contact: 0.5 sqrt(m / k)";
+    case StepLimiter::volume_rate: return "rate of volume: a change by 5 % in a step";
+    case StepLimiter::closing_rate: return "approach to another body or a rigid shape: 5 % of a spacing in a step";
+    case StepLimiter::waves:
+    case StepLimiter::unknown: break;
+  }
+  return fmt::format("waves: run.cfl h / c with run.cfl = {}; in the run also by viscosity, accelerations and contact",
+                     particles_.system().settings.cfl);
+}
 
 std::optional<Failure> Solver::failure() const {
   FailureSlot const& slot = particles_.failure();

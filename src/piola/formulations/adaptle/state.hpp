@@ -205,8 +205,16 @@ struct Settings {
 };
 
 /// Results of a step.
+/// The bound that limits the stable step, and the particle where it does.
+struct StepLimiter {
+  enum Kind { unknown, waves, acceleration, contact_stiffness, volume_rate, closing_rate };
+  Kind kind = unknown;
+  Index slot = -1;
+};
+
 struct StepSums {
   double dt = 0;  ///< stable step from the new state [s]
+  StepLimiter limiter;
   double contact_power = 0, hourglass_power = 0, rigid_power = 0, held_power = 0, load_power = 0, viscous_power = 0,
          artificial_power = 0;  ///< [W]
   double overlap = 0;

@@ -170,6 +170,8 @@ struct Step {
       StepReduction& to = *static_cast<StepReduction*>(mine);
       to.sums.add(from.sums);
       to.first.add(from.first);
+      bool const first = from.m.dt == to.m.dt && from.m.limiter.slot < to.m.limiter.slot;
+      if (from.m.dt < to.m.dt || first) to.m.limiter = from.m.limiter;
       to.m.dt = from.m.dt < to.m.dt ? from.m.dt : to.m.dt;
       to.m.overlap = from.m.overlap > to.m.overlap ? from.m.overlap : to.m.overlap;
       to.m.conversion_requests += from.m.conversion_requests;
@@ -185,6 +187,9 @@ struct Step {
     for (Index k = 0; k < blocks; ++k) {
       double const* p = s.partial + static_cast<std::ptrdiff_t>(k) * B::size;
       sums.add(p);
+      if (p[B::dt] < m.dt)
+        m.limiter = {static_cast<StepLimiter::Kind>(static_cast<int>(p[B::limiter])),
+                     static_cast<Index>(p[B::limiting_slot])};
       m.dt = p[B::dt] < m.dt ? p[B::dt] : m.dt;
       m.overlap = p[B::overlap] > m.overlap ? p[B::overlap] : m.overlap;
       m.conversion_requests += static_cast<Index>(p[B::conversion_requests]);

@@ -17,18 +17,28 @@ struct StepLimit {
   Lanes acceleration;  ///< squared [m2/s4]
   Lanes mass;          ///< [kg]
   Lanes stiffness;     ///< of contacts [N/m]
-  Lanes rate;          ///< of volume, or closing rate of bodies [1/s]
+  Lanes volume_rate;   ///< magnitude of tr L [1/s]
+  Lanes closing_rate;  ///< of bodies and rigid shapes, see ContactSum::closing [1/s]
 
   /// The stable step [s]: the smallest of CFL h / c, with the current speed of sound, the compressed length of material
   /// pairs and the quadratic viscosity; 0.25 sqrt(h / |a|); 0.5 sqrt(m / k) of contacts; and the step in which a
   /// volume, or the spacing between bodies, changes by `largest_change`. NaN is detected elsewhere.
-  PIOLA_FN Lanes step(double cfl, double h) const {
+  /// Sets `limiter` to the StepLimiter::Kind of the smallest.
+  PIOLA_FN Lanes step(double cfl, double h, Lanes& limiter) const {
     Lanes const never(1e300);
     Lanes step = cfl * (length / square_root(maximum(stretch, Lanes(1.0)))) / speed;
     Lanes const a = square_root(acceleration);
-    step = shorter(step, select(a > 0.0, 0.25 * square_root(h / a), never));
-    step = shorter(step, select(stiffness > 0.0, 0.5 * square_root(mass / stiffness), never));
-    return select(rate * step > largest_change, largest_change / rate, step);
+    Lanes const by_acceleration = select(a > 0.0, 0.25 * square_root(h / a), never);
+    limiter = select(by_acceleration < step, Lanes(StepLimiter::acceleration), Lanes(StepLimiter::waves));
+    step = shorter(step, by_acceleration);
+    Lanes const by_contact = select(stiffness > 0.0, 0.5 * square_root(mass / stiffness), never);
+    limiter = select(by_contact < step, Lanes(StepLimiter::contact_stiffness), limiter);
+    step = shorter(step, by_contact);
+    auto const deforms = volume_rate > closing_rate;
+    Lanes const rate = select(deforms, volume_rate, closing_rate);
+    auto const fast = rate * step > largest_change;
+    limiter = select(fast, select(deforms, Lanes(StepLimiter::volume_rate), Lanes(StepLimiter::closing_rate)), limiter);
+    return select(fast, largest_change / rate, step);
   }
   PIOLA_FN static Lanes shorter(Lanes const& a, Lanes const& b) { return select(b < a, b, a); }
 

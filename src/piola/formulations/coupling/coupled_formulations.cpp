@@ -158,6 +158,7 @@ StepEstimate CoupledFormulations::step_estimate() const {
     if (!(here.settled < rule.settled)) continue;
     rule = here;
     rule.limit += " (" + parts_[k].formulation + ")";
+    if (rule.particle >= 0) rule.particle = parts_[k].id_in_whole(rule.particle);
   }
   if (double const tied = contact_ ? contact_->settled(rule.settled) : rule.settled; tied < rule.settled) {
     rule.settled = tied;
@@ -165,6 +166,11 @@ StepEstimate CoupledFormulations::step_estimate() const {
   }
   rule.first = std::min(first, rule.settled);
   rule.stable = contact_ ? contact_->settled(stable) : stable;
+  double const touching = contact_ ? contact_->limit(stable) : rule.stable;
+  if (touching < rule.stable)
+    rule.limit += touching < contact_->limit(std::numeric_limits<double>::infinity())
+                      ? ", shortened by the stiffness of contact"
+                      : ", shortened by the approach of surfaces";
   return rule;
 }
 
