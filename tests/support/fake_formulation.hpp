@@ -35,6 +35,7 @@ class FakeFormulation : public Formulation, public ReplicatedObservables {
     rule.limit = "the formulation";
     return rule;
   }
+  StepBound step_bound() const override { return {stable_time_step(), "the formulation", -1}; }
   double kinetic_energy() const override { return diagnose().kinetic_energy; }
   Observables const& observables() const override { return *this; }
   RunStatistics statistics() const override { return {}; }

@@ -20,6 +20,7 @@ struct Script {
                                              jacobian = [](std::size_t, double) { return 1.0; };
   std::vector<char> eulerian = {};
   std::function<double(double)> step = [](double) { return 1e-3; };
+  std::int64_t limiting_particle = -1;  ///< of StepBound
   std::function<std::array<double, 9>(std::size_t, double)> gradient = {};
   std::function<std::vector<std::pair<std::string, double>>(double)> more = [](double) {
     return std::vector<std::pair<std::string, double>>{};
@@ -30,6 +31,7 @@ class Scripted : public FakeFormulation {
  public:
   Scripted(Script script, std::size_t particles) : script_(std::move(script)), n_(particles) {}
   double stable_time_step() const override { return script_.step(time_); }
+  StepBound step_bound() const override { return {stable_time_step(), "the script", script_.limiting_particle}; }
   void step(double time, double dt) override {
     time_ = time + dt;
     if (++steps_ == stop_at) *stop = 15;

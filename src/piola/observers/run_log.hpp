@@ -26,7 +26,8 @@ class Listener {
   virtual void warning(std::string const&) {}
 };
 
-/// log.txt of a results folder (start, warnings, outcome), and the list of warnings of the run.
+/// log.txt of a results folder (start, warnings, bounds of shorter steps, outcome), and the list of warnings of the
+/// run.
 class RunLog {
  public:
   /// With an empty path warnings are stored and passed on, and nothing is written.

@@ -26,6 +26,7 @@ struct Command {
     damp,
     kinetic_energy,
     diagnose,
+    step_bound,
     sample,
     probes,
     frame,
@@ -150,6 +151,11 @@ class DriverProxy final : public Formulation, public Observables {
     return own().kinetic_energy();
   }
   std::optional<Failure> failure() const override { return own().failure(); }
+  StepBound step_bound() const override {
+    ExcludeFromStepTraffic const aside;
+    send({Command::What::step_bound});
+    return own().step_bound();
+  }
   Diagnostics diagnose() const override {
     ExcludeFromStepTraffic const aside;
     send({Command::What::diagnose});
@@ -205,8 +211,8 @@ class DriverProxy final : public Formulation, public Observables {
 
 bool is_for_observers(Command const& order) {
   using enum Command::What;
-  return order.what == kinetic_energy || order.what == diagnose || order.what == sample || order.what == probes ||
-         order.what == frame || order.what == save || order.what == load;
+  return order.what == kinetic_energy || order.what == diagnose || order.what == step_bound || order.what == sample ||
+         order.what == probes || order.what == frame || order.what == save || order.what == load;
 }
 
 /// Counterpart on this rank of saving with a writer of rank 0.
@@ -227,6 +233,7 @@ void execute_command(Formulation& formulation, Command const& order) {
     case Command::What::damp: return formulation.damp(order.first);
     case Command::What::kinetic_energy: return void(formulation.kinetic_energy());
     case Command::What::diagnose: return void(formulation.diagnose());
+    case Command::What::step_bound: return void(formulation.step_bound());
     case Command::What::sample: return formulation.observables().sample(order.field, {});
     case Command::What::save: return save_with_first(formulation, static_cast<StateWriter::Rows>(order.code));
     case Command::What::load: {

@@ -17,6 +17,7 @@
 #include "piola/simulation/picture_observer.hpp"
 #include "piola/simulation/restore.hpp"
 #include "piola/simulation/run_summary.hpp"
+#include "piola/simulation/step_observer.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -27,6 +28,7 @@ namespace piola {
 struct RunObservers {
   HistoryObserver history;
   GuardObserver guards;
+  StepObserver steps;
   FrameObserver frames;
   PictureObserver pictures;
   Relaxation relaxation;
@@ -40,6 +42,7 @@ struct RunObservers {
                Observer* last)
       : history(results),
         guards(results, mass, history),
+        steps(results),
         frames(results),
         pictures(results, frames),
         relaxation(results.spec.run, results.particles, mass),
@@ -50,7 +53,7 @@ struct RunObservers {
   }
   std::vector<Observer*> all() {
     std::vector<Observer*> list{&history, &guards};
-    if (written) list.insert(list.end(), {&frames, &pictures});
+    if (written) list.insert(list.end(), {&steps, &frames, &pictures});
     list.push_back(&relaxation);
     if (written) list.push_back(&checkpoints);
     list.push_back(&progress);

@@ -117,6 +117,8 @@ struct StepEnd {
     }
   }
 
+ public:
+  /// The stable step [s]. L: velocity gradient; inverse_F: identity where there is no material pair.
   PIOLA_FN Lanes limit(Group g, BlockScratch const& scratch, Mat<3, Lanes> const& L,
                        Mat<3, Lanes> const& inverse_F) const {
     Index const i = g.first;
@@ -136,6 +138,7 @@ struct StepEnd {
     return limits.step(settings.cfl, body.h);
   }
 
+ private:
   /// Sets conversion requests: 1: with the neighbours, 2: alone, 0: none. Returns the number of requests.
   PIOLA_FN int make_requests(Group g, Mat<3, Lanes> const& inverse_F) const {
     Lanes const blend = phi.scalar<Lanes>(g.first);

@@ -118,6 +118,8 @@ struct Kick {
     after = s.boundary.held_velocity[3 * i + c];
   }
 
+ public:
+  /// spatial: velocity gradient of the spatial sums.
   PIOLA_FN void set_gradient(Group g, Lanes const* spatial, BlockScratch& scratch) const {
     Index const i = g.first;
     Mat<3, Lanes> L;

@@ -6,6 +6,7 @@
 #include "piola/formulations/adaptle/observe.hpp"
 #include "piola/formulations/adaptle/options.hpp"
 #include "piola/formulations/adaptle/particles.hpp"
+#include "piola/formulations/adaptle/step_bound.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
 #include "piola/formulations/common/field_checkpoint.hpp"
 #include "piola/formulations/coupled_particles.hpp"
@@ -68,6 +69,7 @@ class Solver final : public Formulation, public Observables, public CoupledParti
                     particles_.system().settings.cfl);
     return rule;
   }
+  StepBound step_bound() const override { return find_step_bound(particles_); }
   void step(double time, double dt) override { particles_.step(time, dt); }
   void damp(double factor) override { particles_.damp(factor); }
   CoupledParticles* coupled_particles() override { return this; }

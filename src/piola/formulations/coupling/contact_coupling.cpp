@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace piola {
@@ -153,6 +154,16 @@ double ContactCoupling::limit(double step) const {
   double const omega2 =
       std::max(system_.totals().frequency2, motion_.frequency2()) + ties_.frequency2() + colours_.totals().frequency2;
   return std::min(with_frequency(step, omega2), closing_);
+}
+
+StepBound ContactCoupling::bound(StepBound of_bodies) const {
+  double const step = limit(of_bodies.step), alone = limit(std::numeric_limits<double>::infinity());
+  if (!(step < of_bodies.step)) return of_bodies;
+  if (step == closing_) return {.step = step, .text = "the approach of surfaces"};
+  if (alone < of_bodies.step) return {.step = step, .text = "the stiffness of contact and ties"};
+  of_bodies.step = step;
+  of_bodies.text += ", and the stiffness of contact and ties";
+  return of_bodies;
 }
 
 double ContactCoupling::settled(double step) const { return with_frequency(step, ties_.settled_frequency2()); }

@@ -33,6 +33,8 @@ class ContactCoupling {
 
   /// Returns the step limit of contact [s], given the step limit `step` of the bodies [s].
   double limit(double step) const;
+  /// As limit(), with what limits the step.
+  StepBound bound(StepBound of_bodies) const;
   /// As limit(), for a state without active contact.
   double settled(double step) const;
   /// Adds energy, work and columns of history.csv.

@@ -89,6 +89,7 @@ class CoupledFormulations : public Formulation, public Observables {
     return contact_ ? contact_->limit(step) : step;
   }
   StepEstimate step_estimate() const override;
+  StepBound step_bound() const override;
 
   /// Contact and ties act before and after the steps of the parts, when all bodies are at the same time.
   void step(double time, double dt) override {
@@ -167,6 +168,18 @@ StepEstimate CoupledFormulations::step_estimate() const {
   rule.stable = contact_ ? contact_->settled(stable) : stable;
   if (contact_ && contact_->limit(stable) < rule.stable) rule.limit += ", at present also by contact";
   return rule;
+}
+
+StepBound CoupledFormulations::step_bound() const {
+  StepBound shortest{.step = std::numeric_limits<double>::infinity(), .text = {}};
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    StepBound here = formulations_[k]->step_bound();
+    if (!(here.step < shortest.step)) continue;
+    if (here.particle >= 0) here.particle = parts_[k].id_in_whole(here.particle);
+    shortest = std::move(here);
+    shortest.text += " (" + parts_[k].formulation + ")";
+  }
+  return contact_ ? contact_->bound(std::move(shortest)) : shortest;
 }
 
 /// Stages: the mean over all particles. At most one part can repartition.

@@ -54,6 +54,8 @@ class Solver final : public BodiesSolver<JstBody, StabilityMonitor> {
     return rule;
   }
 
+  StepBound step_bound() const override;
+
   void step(double time, double dt) override {
     actions_.begin_step(bodies_, dt);
     for (auto const& body : bodies_) body->step(backend_, time, dt);
@@ -86,11 +88,12 @@ class Solver final : public BodiesSolver<JstBody, StabilityMonitor> {
   /// The smallest step of all bodies at their present wave speeds [s].
   double step_limit() const {
     double dt = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < bodies_.size(); ++k) {
-      double const c = largest_speed_[k], h = bodies_[k]->state().constants.h_min;
-      dt = std::min(dt, monitors_[k] ? margin * monitors_[k]->step(c) : bodies_[k]->options().cfl * h / c);  // (44)
-    }
+    for (std::size_t k = 0; k < bodies_.size(); ++k) dt = std::min(dt, step_limit_of(k));
     return dt;
+  }
+  double step_limit_of(std::size_t k) const {
+    double const c = largest_speed_[k], h = bodies_[k]->state().constants.h_min;
+    return monitors_[k] ? margin * monitors_[k]->step(c) : bodies_[k]->options().cfl * h / c;  // (44)
   }
   void find_largest_speeds() {
     largest_speed_.clear();
@@ -120,6 +123,25 @@ class Solver final : public BodiesSolver<JstBody, StabilityMonitor> {
   std::vector<double> largest_speed_;  ///< wave speed of the state, per body [m/s]
   double last_step_ = 0;               ///< [s]
 };
+
+/// Names the first particle with the largest wave speed of the body with the shortest step.
+StepBound Solver::step_bound() const {
+  std::size_t least = 0;
+  for (std::size_t k = 1; k < bodies_.size(); ++k)
+    if (step_limit_of(k) < step_limit_of(least)) least = k;
+  JstBody const& body = *bodies_[least];
+  std::int64_t fastest = std::numeric_limits<std::int64_t>::max();
+  for (Index i = body.own().first; i < body.own().last; ++i)
+    if (JstBody::value(body.state().wave_speed, i) == largest_speed_[least]) fastest = std::min(fastest, body.id(i));
+  comm::allreduce(fastest, [](void const* other, void* mine) {
+    auto& first = *static_cast<std::int64_t*>(mine);
+    first = std::min(first, *static_cast<std::int64_t const*>(other));
+  });
+  bool const known = fastest < std::numeric_limits<std::int64_t>::max();
+  return {.step = step_limit_of(least),
+          .text = fmt::format("{}, with a wave speed of {:.4g} m/s", step_estimate().limit, largest_speed_[least]),
+          .particle = known ? fastest : -1};
+}
 
 /// The particle that the loops have recorded, else the first whose wave speed is NaN, which would make the step NaN.
 FailureSlot Solver::failed_particle(std::size_t k) const {

@@ -43,6 +43,8 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
     return rule;
   }
 
+  StepBound step_bound() const override;
+
   void step(double time, double dt) override {
     actions_.begin_step(bodies_, dt);
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
@@ -119,6 +121,15 @@ double Solver::calm_time_step() const {
   }
   return energy_oscillation > 0 && energy > 0 ? std::sqrt(energy / energy_oscillation)
                                               : std::numeric_limits<double>::infinity();
+}
+
+StepBound Solver::step_bound() const {
+  double const step = least_step(&StabilityMonitor::step);
+  std::size_t least = 0;
+  for (std::size_t k = 1; k < monitors_.size(); ++k)
+    if (monitors_[k]->step() < monitors_[least]->step()) least = k;
+  if (step < monitors_[least]->step()) return {.step = step, .text = "energy_tolerance"};
+  return {.step = step, .text = fmt::format("{}, of body '{}'", step_estimate().limit, bodies_[least]->body().name)};
 }
 
 void Solver::add_velocities(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) {

@@ -71,6 +71,11 @@ class Solver final : public Formulation, public ReplicatedObservables, public Co
     rule.limit = fmt::format("waves: run.cfl spacing / c with run.cfl = {}", bodies_.front()->options().cfl);
     return rule;
   }
+  StepBound step_bound() const override {
+    auto const& least =
+        *std::ranges::min_element(bodies_, {}, [](auto const& body) { return body->stable_time_step(); });
+    return {.step = step_limit(), .text = step_estimate().limit + fmt::format(", of body '{}'", least->body().name)};
+  }
   void step(double time, double dt) override {
     actions_.begin(dt);
     for (auto const& body : bodies_) {
