@@ -70,13 +70,6 @@ struct StepEstimate {
   std::string limit;   ///< what limits the step, in words
 };
 
-/// The bound that limits the step from the current state.
-struct StepBound {
-  double step = 0;             ///< s, not shortened to the end of a load or support
-  std::string text;            ///< what limits it, in words
-  std::int64_t particle = -1;  ///< id of the particle that it belongs to; -1: to none alone
-};
-
 /// Cost of a formulation and quality of its set-up, for the summary, estimates and benchmarks.
 struct RunStatistics {
   int stages_per_step = 1;                              ///< right-hand sides per step
@@ -146,8 +139,6 @@ class Formulation {
 
   virtual double stable_time_step() const = 0;  ///< s, the step to take from the current state
   virtual StepEstimate step_estimate() const = 0;
-  /// For the state after a step. Collective; the result is on rank 0.
-  virtual StepBound step_bound() const = 0;
   virtual void step(double time, double dt) = 0;  ///< from time to time + dt
   /// Multiplies the velocities that are not prescribed by `factor`, from 0 to 1. The lost kinetic energy is added to
   /// the damping loss. Called between steps.

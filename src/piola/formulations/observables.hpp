@@ -21,8 +21,15 @@ struct FieldInfo {
 /// Returns the field of this name. Throws std::invalid_argument if there is none.
 FieldInfo const& info_of(std::span<FieldInfo const> fields, std::string_view name);
 
-/// The current state of a formulation for frames, probes and pictures: fields of its particles, in Id order, and its
-/// rigid shapes. Read-only.
+/// The bound that limits the step from the current state.
+struct StepBound {
+  double step = 0;             ///< s, not shortened to the end of a load or support
+  std::string text;            ///< what limits it, in words
+  std::int64_t particle = -1;  ///< id of the particle that it belongs to; -1: to none alone
+};
+
+/// The current state of a formulation for frames, probes, pictures and logs: fields of its particles, in Id order, its
+/// rigid shapes, and what limits its step. Read-only.
 class Observables {
  public:
   virtual ~Observables() = default;
@@ -38,6 +45,8 @@ class Observables {
   virtual void sample_local(std::string_view field, std::span<double> values) const = 0;
   /// Current state of free and rotating rigid shapes; driven ones without rotation follow from the case.
   virtual std::vector<RigidState> rigids() const = 0;
+  /// For the state after a step. Collective; the result is on rank 0.
+  virtual StepBound step_bound() const = 0;
 };
 
 /// Observables of bodies of one formulation without rigid shapes whose state is replicated on all ranks: rank 0

@@ -154,7 +154,7 @@ class DriverProxy final : public Formulation, public Observables {
   StepBound step_bound() const override {
     ExcludeFromStepTraffic const aside;
     send({Command::What::step_bound});
-    return own().step_bound();
+    return own().observables().step_bound();
   }
   Diagnostics diagnose() const override {
     ExcludeFromStepTraffic const aside;
@@ -233,7 +233,7 @@ void execute_command(Formulation& formulation, Command const& order) {
     case Command::What::damp: return formulation.damp(order.first);
     case Command::What::kinetic_energy: return void(formulation.kinetic_energy());
     case Command::What::diagnose: return void(formulation.diagnose());
-    case Command::What::step_bound: return void(formulation.step_bound());
+    case Command::What::step_bound: return void(formulation.observables().step_bound());
     case Command::What::sample: return formulation.observables().sample(order.field, {});
     case Command::What::save: return save_with_first(formulation, static_cast<StateWriter::Rows>(order.code));
     case Command::What::load: {

@@ -13,7 +13,7 @@ void StepObserver::observe(Formulation const& formulation, TimeState const& mome
   longest_ = std::max(longest_, next);
   double const half = 0.5 * std::min(longest_, logged_);
   if (!(next < half)) return;
-  StepBound const bound = formulation.step_bound();
+  StepBound const bound = formulation.observables().step_bound();
   if (!(bound.step < half)) return;  // shortened to the end of a load or support
   logged_ = bound.step;
   std::string where;

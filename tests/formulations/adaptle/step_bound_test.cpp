@@ -37,7 +37,7 @@ TEST(AdaptleStepBound, IsTheStepThatTheLoopsFind) {
 StepBound after_a_step(Assembly const& a) {
   auto const f = make_formulation(a);
   f->step(0, 1e-9);
-  return f->step_bound();
+  return f->observables().step_bound();
 }
 
 TEST(AdaptleStepBound, NamesWaves) {

@@ -173,7 +173,7 @@ StepEstimate CoupledFormulations::step_estimate() const {
 StepBound CoupledFormulations::step_bound() const {
   StepBound shortest{.step = std::numeric_limits<double>::infinity(), .text = {}};
   for (std::size_t k = 0; k < parts_.size(); ++k) {
-    StepBound here = formulations_[k]->step_bound();
+    StepBound here = formulations_[k]->observables().step_bound();
     if (!(here.step < shortest.step)) continue;
     if (here.particle >= 0) here.particle = parts_[k].id_in_whole(here.particle);
     shortest = std::move(here);
