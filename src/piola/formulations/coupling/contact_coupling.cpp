@@ -219,7 +219,7 @@ void ContactCoupling::report(Diagnostics& sum) const {
   for (contact::Passed const& p : system_.passed()) sum.passages.push_back({named(p.of), named(p.through), p.points});
 }
 
-std::vector<FieldInfo> ContactCoupling::fields() { return field_infos(offered_by_contact); }
+std::vector<FieldInfo> contact_fields() { return field_infos(offered_by_contact); }
 
 bool ContactCoupling::sample(std::string_view field, std::span<double> values) const {
   if (std::find(offered_by_contact.begin(), offered_by_contact.end(), field) == offered_by_contact.end()) return false;

@@ -17,6 +17,9 @@
 
 namespace piola {
 
+/// Fields of surfaces: pressure, gap, slip and friction heat; zero for particles without a surface point.
+std::vector<FieldInfo> contact_fields();
+
 /// Surface contact and ties between the bodies of a run, of any formulation, and with rigid shapes. It changes
 /// velocities between steps: half of a step's impulse with the forces before the step, half with those after it. For
 /// kick-drift-kick formulations this is velocity Verlet with the contact force included.
@@ -50,9 +53,7 @@ class ContactCoupling {
   std::vector<Action> actions() const { return actions_.report(); }
   /// Mean force of body B on body A, named "A-B"; moment about the origin.
   std::vector<Action> pairs() const;
-  /// Fields of surfaces: pressure, gap, slip and friction heat; zero for particles without a surface point.
-  static std::vector<FieldInfo> fields();
-  /// Samples a field of fields(): values[id]. Returns false if it is another field.
+  /// Samples a field of contact_fields(): values[id]. Returns false if it is another field.
   bool sample(std::string_view field, std::span<double> values) const;
   void save(StateWriter& writer) const;
   void load(StateReader& reader);

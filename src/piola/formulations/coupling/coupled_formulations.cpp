@@ -267,7 +267,7 @@ std::vector<FieldInfo> CoupledFormulations::fields() const {
 
 std::vector<FieldInfo> CoupledFormulations::with_contact(std::vector<FieldInfo> all) const {
   if (contact_)
-    for (FieldInfo& info : ContactCoupling::fields()) all.push_back(std::move(info));
+    for (FieldInfo& info : contact_fields()) all.push_back(std::move(info));
   return all;
 }
 
@@ -313,7 +313,7 @@ std::optional<std::vector<std::int64_t>> CoupledFormulations::local_particles() 
 void CoupledFormulations::sample_local(std::string_view field, std::span<double> values) const {
   if (!comm::is_parallel()) return sample(field, values);
   auto const width = static_cast<std::size_t>(info_of(fields(), field).components);
-  if (contact_ && find_field(ContactCoupling::fields(), field) != nullptr) {
+  if (contact_ && find_field(contact_fields(), field) != nullptr) {
     double particles = 0;
     for (double const count : counts_) particles += count;
     std::vector<double> all(static_cast<std::size_t>(particles) * width, 0);  // every rank has them
