@@ -35,6 +35,7 @@ class Probe {
   /// Present values [SI]. A twist angle continues from the last call, so that full turns are counted if it changes by
   /// less than half a turn between calls. `time` [s] is for formulas.
   std::vector<double> evaluate(FieldCache& cache, double time = 0);
+  ProbeSpec const& spec() const { return spec_; }
   std::vector<std::int64_t> const& ids() const { return particles_.ids; }
 
   bool is_reducible() const { return info_of(spec_.kind).is_reducible; }

@@ -5,7 +5,7 @@
 
 namespace piola {
 
-ProbeSet::ProbeSet(CaseSpec const& spec, ParticleSet const& particles) : particles_(particles), specs_(spec.probes) {
+ProbeSet::ProbeSet(CaseSpec const& spec, ParticleSet const& particles) : particles_(particles) {
   for (ProbeSpec const& probe : spec.probes) probes_.emplace_back(probe, particles);
 }
 
@@ -25,12 +25,11 @@ void ProbeSet::evaluate_local(Formulation const& formulation, double time) { eva
 
 /// Restricts probes to the local particles. Recreates those that were restricted to an earlier partition.
 void ProbeSet::distribute(std::optional<std::vector<std::int64_t>> const& local) {
-  for (std::size_t k = 0; k < probes_.size(); ++k) {
-    Probe& probe = probes_[k];
+  for (Probe& probe : probes_) {
     if (!probe.is_reducible()) continue;
     if (distributed_to_) {
       double const state = probe.state();
-      probe = Probe(specs_[k], particles_);
+      probe = Probe(probe.spec(), particles_);
       probe.restore(state);
     }
     probe.share(local);

@@ -30,7 +30,6 @@ class ProbeSet {
   std::vector<std::vector<double>> evaluate_additive(Formulation const& formulation, double time);
   void distribute(std::optional<std::vector<std::int64_t>> const& local);
   ParticleSet const& particles_;
-  std::vector<ProbeSpec> specs_;
   std::vector<Probe> probes_;
   std::optional<std::vector<std::int64_t>> distributed_to_;  ///< local particles to which the probes are restricted
 };
