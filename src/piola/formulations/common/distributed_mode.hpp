@@ -34,12 +34,10 @@ double global_max_norm(Body const& body, std::vector<double> const& u) {
 /// Calls f(value, number) for the local values of a mode; numbers follow the ids.
 template <class Body, class F>
 void each_of_mode(Body const& body, std::vector<double>& mode, F const& f) {
-  Range const own = body.own();
   int const D = body.state().dimension;
-  exec_host::parallel_for(own.last - own.first, [&](Index k) {
-    auto const number =
-        static_cast<std::uint64_t>(body.id(own.first + k) - body.body().first) * static_cast<unsigned>(D);
-    for (int c = 0; c < D; ++c) f(mode[mode_place(body, own.first + k, c)], number + static_cast<unsigned>(c));
+  exec_host::parallel_for(body.own(), [&](Index slot) {
+    auto const number = static_cast<std::uint64_t>(body.id(slot) - body.body().first) * static_cast<unsigned>(D);
+    for (int c = 0; c < D; ++c) f(mode[mode_place(body, slot, c)], number + static_cast<unsigned>(c));
   });
 }
 

@@ -211,8 +211,8 @@ void SplineLevels<D>::add(LazyZeroArray<double>& r, LazyZeroArray<double>& z) {
     for (std::size_t k = 0; k < level.value.size(); ++k) level.value[k] /= stiffness_ * level.energy[k / D];
   for (std::size_t l = levels_.size() - 1; l > 0; --l) prolong(levels_[l], levels_[l - 1]);
   Range const own = shared_ ? shared_->own() : Range{0, static_cast<Index>(X_.size())};
-  exec_host::parallel_for(own.last - own.first, [&](Index k) {
-    auto const a = static_cast<std::size_t>(own.first + k);
+  exec_host::parallel_for(own, [&](Index particle) {
+    auto const a = static_cast<std::size_t>(particle);
     visit(a, [&](std::size_t spline, double value) {
       for (std::size_t J = 0; J < D; ++J) z[a * D + J] += value * first.value[spline * D + J];
     });
