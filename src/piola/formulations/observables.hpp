@@ -24,8 +24,8 @@ FieldInfo const& info_of(std::span<FieldInfo const> fields, std::string_view nam
 /// The bound that limits the step from the current state.
 struct StepBound {
   double step = 0;             ///< s, not shortened to the end of a load or support
-  std::string text;            ///< what limits it, in words
-  std::int64_t particle = -1;  ///< id of the particle that it belongs to; -1: to none alone
+  std::string text;            ///< what limits the step, in words
+  std::int64_t particle = -1;  ///< id of the particle whose bound this is; -1: a bound of no single particle
 };
 
 /// The current state of a formulation for frames, probes, pictures and logs: fields of its particles, in Id order, its
@@ -45,7 +45,7 @@ class Observables {
   virtual void sample_local(std::string_view field, std::span<double> values) const = 0;
   /// Current state of free and rotating rigid shapes; driven ones without rotation follow from the case.
   virtual std::vector<RigidState> rigids() const = 0;
-  /// For the state after a step. Collective; the result is on rank 0.
+  /// What limits the step from the state after a step. Collective; the result is on rank 0.
   virtual StepBound step_bound() const = 0;
 };
 

@@ -7,7 +7,7 @@ namespace piola::adaptle {
 /// Optional features of a case that need additional fields.
 struct FieldNeeds {
   bool lagrangian = false;    ///< some particle has a deformation gradient
-  bool kernel_sums = false;   ///< the sums over reference neighbours store the kernel
+  bool kernel_sums = false;   ///< some particle is lagrangian, and its sums store the kernel
   bool plane_stress = false;  ///< variable thickness
   bool touching = false;      ///< several bodies, or rigid shapes
 };
@@ -97,14 +97,17 @@ struct Fields {
   /// In the order of ContactSum.
   ParticleField contact{owner, "ContactSums", "1", ContactSum::size, Role::derived, has.touching};
 
-  // Constants of the sums over reference neighbours, with s = -W'(r)/r and r = X_b - X_a: inverse of sum_b V0_b s r (x)
-  // r, symmetric, of D dimensions, not as published; sum_b V0_b s r over particles that are not deleted; sum_b V0_b W
-  // over these; as published, gt_ab = N (g - G W), with N = K/S and G over S.
+  // Constants of the sums over reference neighbours, with s = -W'(r)/r and r = X_b - X_a.
+  /// Inverse of sum_b V0_b s r (x) r, symmetric, of D dimensions; not for the published equations.
   ParticleField K{owner, "GradientCorrection", "1", 6, Role::reference, has.lagrangian};
+  /// sum_b V0_b s r over neighbours that are not deleted.
   ParticleField gradient_sum{owner, "GradientSum", "1/m", 3, Role::reference, has.lagrangian};
-  ParticleField kernel_sum{owner, "KernelSum", "1", 1, Role::reference, has.lagrangian&& has.kernel_sums};
-  ParticleField N{owner, "FoldedCorrection", "1", 9, Role::reference, has.lagrangian&& has.kernel_sums};
-  ParticleField gradient_mean{owner, "KernelGradientMean", "1/m", 3, Role::reference, has.lagrangian&& has.kernel_sums};
+  /// sum_b V0_b W over neighbours that are not deleted.
+  ParticleField kernel_sum{owner, "KernelSum", "1", 1, Role::reference, has.kernel_sums};
+  /// N over S of the published gradient N (s r - G W). S: sum_b V0_b W over all neighbours and the particle itself.
+  ParticleField N{owner, "FoldedCorrection", "1", 9, Role::reference, has.kernel_sums};
+  /// G of the published gradient: sum_b V0_b s r over all neighbours, over S.
+  ParticleField gradient_mean{owner, "KernelGradientMean", "1/m", 3, Role::reference, has.kernel_sums};
 };
 
 }  // namespace piola::adaptle

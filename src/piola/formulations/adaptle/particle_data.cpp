@@ -46,9 +46,10 @@ ContactLaw law_of(ContactRule const& rule) {
 }
 
 FieldNeeds field_needs(Assembly const& assembly, Options const& options) {
-  return {.lagrangian = std::any_of(options.bodies.begin(), options.bodies.end(),
-                                    [](BodyOptions const& o) { return o.description != Description::eulerian; }),
-          .kernel_sums = options.settings.equations.stores_kernel(),
+  bool const lagrangian = std::any_of(options.bodies.begin(), options.bodies.end(),
+                                      [](BodyOptions const& o) { return o.description != Description::eulerian; });
+  return {.lagrangian = lagrangian,
+          .kernel_sums = lagrangian && options.settings.equations.stores_kernel(),
           .plane_stress = options.settings.plane_stress,
           .touching = assembly.particles.bodies.size() > 1 || !assembly.rigid_shapes.empty()};
 }

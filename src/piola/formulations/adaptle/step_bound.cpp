@@ -86,7 +86,7 @@ ParticleBound shortest_of(System const& s) {
   return shortest;
 }
 
-/// The one of the bounds of StepLimit::step() that gives this step.
+/// Names the bound of StepLimit::step() that gives the step `b.step`.
 std::string text_of(ParticleBound const& b, double cfl) {
   constexpr double same = 1 + 1e-9;  // despite rounding
   double const rate = std::max(b.volume_rate, b.closing);
@@ -112,7 +112,8 @@ StepBound find_step_bound(Particles const& particles) {
   System const& s = particles.system();
   ParticleBound const found = s.dimension == 2 ? shortest_of<2>(s) : shortest_of<3>(s);
   double const step = particles.stable_time_step();
-  // Conversion and deletion follow on the stable step; the host's arithmetic may differ from that of the back end.
+  // The steps differ if the particle was converted or deleted after its stable step had been found. The tolerance is
+  // for round-off: this pass runs on the host, the loops of a step in a back end.
   if (!(std::abs(found.step - step) <= 1e-6 * step))
     return {.step = step, .text = "a particle that was converted or deleted in the last step"};
   return {.step = step, .text = text_of(found, s.settings.cfl), .particle = found.slot};

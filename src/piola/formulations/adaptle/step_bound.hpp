@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/adaptle/particles.hpp"
-#include "piola/formulations/formulation.hpp"
+#include "piola/formulations/observables.hpp"
 
 namespace piola::adaptle {
 
-/// As Formulation::step_bound(). Finds the particle that limits the stable step in a pass of its own over all
-/// particles, so that the loops of a step need not track it.
+/// Implements Observables::step_bound(). A separate pass over all particles finds the particle that limits the stable
+/// step, so that the loops of a step need not track this particle.
 StepBound find_step_bound(Particles const& particles);
 
 }  // namespace piola::adaptle
