@@ -46,6 +46,16 @@ TEST(AdaptleStepBound, NamesWaves) {
   EXPECT_EQ(bound.particle, 0) << "the first of equal ones";
 }
 
+TEST(AdaptleStepBound, NamesTheCompressedLengthOfWaves) {
+  Assembly a = adaptle_assembly(unit_box(3, 4));
+  choose(a, "description", "total_lagrangian");
+  double const at_rest = after_a_step(a).step;
+  for (Point const& X : a.particles.X) a.initial_displacement.push_back({-0.5 * X[0], 0, 0});
+  StepBound const bound = after_a_step(a);
+  EXPECT_NE(bound.text.find("compressed to 0.5 of"), std::string::npos) << bound.text;
+  EXPECT_LT(bound.step, 0.55 * at_rest);
+}
+
 TEST(AdaptleStepBound, NamesAcceleration) {
   Assembly a = adaptle_assembly(unit_box(3, 4));
   load(a, {"1e9", "0", "0"}, [](Point const& X) { return X[0] > 0.7; });

@@ -13,10 +13,11 @@ namespace {
 struct ParticleBound {
   double step = 1e300;  ///< [s]
   Index slot = FailureSlot::none;
-  double h = 0, mass = 0;                                   ///< [m], [kg]
-  double volume_rate = 0, closing = 0;                      ///< |tr L|, see ContactSum::closing [1/s]
-  double stiffness = 0, acceleration = 0;                   ///< of contact [N/m], [m/s2]
-  double sound = 0, compression = 0, relative_density = 1;  ///< [m/s], |mu_ab| of the viscosity [m/s]
+  double h = 0, mass = 0;                  ///< [m], [kg]
+  double volume_rate = 0, closing = 0;     ///< |tr L|, see ContactSum::closing [1/s]
+  double stiffness = 0, acceleration = 0;  ///< of contact [N/m], [m/s2]
+  double sound = 0, compression = 0;       ///< [m/s], |mu_ab| of the viscosity [m/s]
+  double shortest_length = 1;              ///< of material, over its length at rest; at most 1
 
   void add(ParticleBound const& other) {
     if (other.step < step || (other.step == step && other.slot < slot)) *this = other;
@@ -50,7 +51,9 @@ class BoundOfParticle {
             .acceleration = std::sqrt(dot(a, a)),
             .sound = end_.c.at(i),
             .compression = scratch.compression[0],
-            .relative_density = end_.rho.at(i) / end_.body.rho0};
+            .shortest_length = material && end_.active.at(i) > 0
+                                   ? 1 / std::sqrt(std::max(1.0, StepLimit::stretch_squared(inverse_F)))
+                                   : 1};
   }
 
  private:
@@ -101,9 +104,9 @@ std::string text_of(ParticleBound const& b, double cfl) {
   if (b.acceleration > 0 && 0.25 * std::sqrt(b.h / b.acceleration) < b.step * same)
     return fmt::format("acceleration: 0.25 sqrt(h / a) with a = {:.4g} m/s2", b.acceleration);
   return fmt::format(
-      "waves: run.cfl h / c with run.cfl = {}, a sound speed of {:.4g} m/s, approach of neighbours at {:.4g} m/s "
-      "(viscosity), and rho / rho0 = {:.4g}",
-      cfl, b.sound, b.compression, b.relative_density);
+      "waves: run.cfl h / c with run.cfl = {}, lengths compressed to {:.4g} of those at rest, a sound speed of {:.4g} "
+      "m/s, and approach of neighbours at {:.4g} m/s (viscosity)",
+      cfl, b.shortest_length, b.sound, b.compression);
 }
 
 }  // namespace
