@@ -16,11 +16,28 @@ using Point = std::array<double, 3>;
 
 constexpr std::array<std::size_t, 3> mixed_first{1, 0, 0}, mixed_second{2, 2, 1};  // YZ XZ XY
 
-/// Adds up blocks and patches, all with edges along the axes.
+/// Adds up blocks, patches and facets, all with edges along the axes.
 class Sums {
  public:
   Sums(int dimension, std::size_t particles) : D_(static_cast<std::size_t>(dimension)), place_(12 * particles, -1) {
     cells.cell.resize(particles);
+    facets_.resize(particles);
+  }
+
+  /// The side between a block of the cell of `lower` and the next block along `axis`, of the cell of `upper`. middle:
+  /// of the side, from the middle between the two particles.
+  void add_facet(std::size_t lower, std::size_t upper, std::size_t axis, Point const& middle, Point const& edge) {
+    double area = lower < upper ? 1 : -1;
+    for (std::size_t c = 0; c < D_; ++c)
+      if (c != axis) area *= edge[c];
+    auto& m = facet(std::min(lower, upper), std::max(lower, upper)).moments[axis];
+    m[0] += area;
+    for (std::size_t c = 0; c < D_; ++c) {
+      m[1 + c] += area * middle[c];
+      double const own = c == axis ? 0 : edge[c] * edge[c] / 12;
+      m[4 + c] += 0.5 * area * (middle[c] * middle[c] + own);
+    }
+    for (std::size_t k = 0; k < 3; ++k) m[7 + k] += area * middle[mixed_first[k]] * middle[mixed_second[k]];
   }
 
   /// A block of the cell of particle a: its middle relative to the particle and its edges.
@@ -72,14 +89,43 @@ class Sums {
   BodyCells cells;
 
  private:
+  CellFacet& facet(std::size_t a, std::size_t b) {
+    for (Index const known : facets_[a])
+      if (auto& f = cells.facet[static_cast<std::size_t>(known)]; f.b == static_cast<Index>(b)) return f;
+    facets_[a].push_back(static_cast<Index>(cells.facet.size()));
+    return cells.facet.emplace_back(CellFacet{static_cast<Index>(a), static_cast<Index>(b), {}});
+  }
+
   std::size_t D_;
-  std::vector<Index> place_;  ///< of the patch of a particle, an axis, a sense
+  std::vector<Index> place_;                ///< of the patch of a particle, an axis, a sense
+  std::vector<std::vector<Index>> facets_;  ///< of a particle, towards particles with a higher number
+};
+
+/// Particles of a body by their positions in its lattice.
+class LatticePlaces {
+ public:
+  LatticePlaces(ParticleSet const& set, Body const& body) : count_(body.lattice) {
+    at_.resize(index({count_[0] - 1, count_[1] - 1, count_[2] - 1}) + 1);
+    for (auto id = body.first; id < body.last; ++id)
+      at_[index(set.lattice_index[static_cast<std::size_t>(id)])] = static_cast<std::size_t>(id - body.first);
+  }
+  std::size_t operator()(std::array<int, 3> const& at) const { return at_[index(at)]; }
+
+ private:
+  std::size_t index(std::array<int, 3> const& at) const {
+    return (static_cast<std::size_t>(at[2]) * static_cast<std::size_t>(count_[1]) + static_cast<std::size_t>(at[1])) *
+               static_cast<std::size_t>(count_[0]) +
+           static_cast<std::size_t>(at[0]);
+  }
+  std::array<int, 3> count_;
+  std::vector<std::size_t> at_;
 };
 
 /// A lattice in a box: each cell is one block.
-BodyCells moments_of_lattice(ParticleSet const& set, Body const& body) {
+BodyCells moments_of_lattice(ParticleSet const& set, Body const& body, CellParts parts) {
   auto const D = static_cast<std::size_t>(set.dimension);
   Sums sums(set.dimension, static_cast<std::size_t>(body.last - body.first));
+  LatticePlaces const particle_at(set, body);
   for (auto id = body.first; id < body.last; ++id) {
     auto const& X = set.X[static_cast<std::size_t>(id)];
     auto const& at = set.lattice_index[static_cast<std::size_t>(id)];
@@ -94,7 +140,15 @@ BodyCells moments_of_lattice(ParticleSet const& set, Body const& body) {
     sums.add_block(a, middle, edge);
     for (std::size_t c = 0; c < D; ++c) {
       if (at[c] == 0) sums.add_side(a, c, false, true, middle, edge);
-      if (at[c] + 1 == body.lattice[c]) sums.add_side(a, c, true, true, middle, edge);
+      if (at[c] + 1 == body.lattice[c]) {
+        sums.add_side(a, c, true, true, middle, edge);
+      } else if (parts == CellParts::facets_too) {
+        std::array<int, 3> next = at;
+        ++next[c];
+        Point of_side = middle;  // from the middle between the two particles, half a spacing along the axis
+        of_side[c] = 0;
+        sums.add_facet(a, particle_at(next), c, of_side, edge);
+      }
     }
   }
   sums.finish();
@@ -110,8 +164,9 @@ struct Stretch {
 /// Blocks of a sixth of the spacing.
 class Sampling {
  public:
-  Sampling(ParticleSet const& set, Body const& body)
-      : outline_(body.outline),
+  Sampling(ParticleSet const& set, Body const& body, CellParts parts)
+      : parts_(parts),
+        outline_(body.outline),
         D_(static_cast<std::size_t>(set.dimension)),
         X_(set.X.data() + body.first),
         nearest_(set, body),
@@ -131,17 +186,12 @@ class Sampling {
   BodyCells operator()() {
     fill_inside();
     if (volume_ > 0) find_stretch();
-    constexpr long at_once = 4096;
     long const rows = count_[1] * count_[2];
-    std::vector<std::uint32_t> owner(static_cast<std::size_t>(std::min(rows, at_once) * count_[0]));
-    for (long first = 0; first < rows; first += at_once) {
-      long const some = std::min(at_once, rows - first);
-      exec_host::parallel_for(static_cast<Index>(some),
-                              [&](Index row) { find_owners(first + row, &owner[at(row, 0)]); });
-      for (long row = 0; row < some; ++row)
-        for (long i = 0; i < count_[0]; ++i)
-          if (Place const place = place_of(first + row, i); is_inside(place)) take(place, owner[at(row, i)]);
-    }
+    owner_.resize(at(rows, 0));
+    exec_host::parallel_for(static_cast<Index>(rows), [&](Index row) { find_owners(row); });
+    for (long row = 0; row < rows; ++row)
+      for (long i = 0; i < count_[0]; ++i)
+        if (Place const place = place_of(row, i); is_inside(place)) take(place);
     sums_.finish();
     return std::move(sums_.cells);
   }
@@ -202,11 +252,12 @@ class Sampling {
     if (!(sampled > 0 && parts > 0)) return;
     for (std::size_t c = 0; c < D_; ++c) stretch_.factor[c] = std::pow(volume_ / sampled, part[c] / parts);
   }
-  void find_owners(long row, std::uint32_t* owner) const {
+  void find_owners(long row) {
     for (long i = 0; i < count_[0]; ++i)
       if (Place const place = place_of(row, i); is_inside(place))
-        owner[i] = static_cast<std::uint32_t>(nearest_(middle(place)));
+        owner_[at(row, i)] = static_cast<std::uint32_t>(nearest_(middle(place)));
   }
+  std::size_t owner(Place const& at) const { return owner_[this->at(at[2] * count_[1] + at[1], at[0])]; }
   bool is_inside(Place const& at) const {
     for (std::size_t c = 0; c < 3; ++c)
       if (at[c] < 0 || at[c] >= count_[c]) return false;
@@ -216,21 +267,30 @@ class Sampling {
     at[axis] += step;
     return at;
   }
-  void take(Place const& at, std::size_t a) {
-    Point r = middle(at), edge = edge_;
+  void take(Place const& at) {
+    std::size_t const a = owner(at);
+    Point X = middle(at), edge = edge_, r{};
     for (std::size_t c = 0; c < D_; ++c) {
-      r[c] = stretch_.fixed[c] + stretch_.factor[c] * (r[c] - stretch_.fixed[c]);
+      X[c] = stretch_.fixed[c] + stretch_.factor[c] * (X[c] - stretch_.fixed[c]);
       edge[c] *= stretch_.factor[c];
+      r[c] = X[c] - X_[a][c];
     }
-    for (std::size_t c = 0; c < 3; ++c) r[c] -= X_[a][c];
     sums_.add_block(a, r, edge);
     for (std::size_t c = 0; c < D_; ++c)
       for (bool const upper : {false, true}) {
         Place const next = beside(at, c, upper ? 1 : -1);
-        if (!is_inside(next)) sums_.add_side(a, c, upper, next[c] < 0 || next[c] >= count_[c], r, edge);
+        if (!is_inside(next)) {
+          sums_.add_side(a, c, upper, next[c] < 0 || next[c] >= count_[c], r, edge);
+        } else if (std::size_t const b = owner(next); upper && b != a && parts_ == CellParts::facets_too) {
+          Point of_side{};
+          for (std::size_t k = 0; k < D_; ++k) of_side[k] = X[k] - 0.5 * (X_[a][k] + X_[b][k]);
+          of_side[c] += 0.5 * edge[c];
+          sums_.add_facet(a, b, c, of_side, edge);
+        }
       }
   }
 
+  CellParts parts_;
   Outline const& outline_;
   std::size_t D_;
   Point const* X_;
@@ -238,19 +298,20 @@ class Sampling {
   Sums sums_;
   Place count_{1, 1, 1};
   Point edge_{};
-  std::vector<char> inside_;  ///< empty: all
-  double volume_ = 0;         ///< exact; 0: not known
+  std::vector<char> inside_;          ///< empty: all
+  std::vector<std::uint32_t> owner_;  ///< of blocks inside
+  double volume_ = 0;                 ///< exact; 0: not known
   Stretch stretch_;
 };
 
 }  // namespace
 
-BodyCells measure_cells(ParticleSet const& set, Body const& body) {
+BodyCells measure_cells(ParticleSet const& set, Body const& body, CellParts parts) {
   PIOLA_EXPECTS(set.dimension >= 1 && set.dimension <= 3);
   PIOLA_EXPECTS(is_range_in(body, set));
   PIOLA_EXPECTS(body.spacing[0] > 0 && body.spacing[1] > 0 && body.spacing[2] > 0);
-  if (has_lattice_cells(body)) return moments_of_lattice(set, body);
-  return Sampling(set, body)();
+  if (has_lattice_cells(body)) return moments_of_lattice(set, body, parts);
+  return Sampling(set, body, parts)();
 }
 
 void take_cell_volumes(ParticleSet& set, Body const& body) {

@@ -27,18 +27,33 @@ struct SurfacePatch {
   std::array<double, 6> second{};  ///< of r1^2/2, r2^2/2, r3^2/2, r2 r3, r1 r3, r1 r2 [m^(D+1)]
 };
 
+/// Integrals of N_J (1, r, r1^2/2, r2^2/2, r3^2/2, r2 r3, r1 r3, r1 r2) dA over a piece of a cell's surface with the
+/// normal N, for J = 1, 2, 3 [m^(D-1) and more].
+using NormalMoments = std::array<std::array<double, 10>, 3>;
+
+/// The surface between the cells of two particles, N from a to b, r from the middle between the two particles.
+struct CellFacet {
+  Index a = 0, b = 0;  ///< counted from the body's first; a < b
+  NormalMoments moments{};
+};
+
 struct BodyCells {
   std::vector<CellMoments> cell;  ///< per particle of the body
   std::vector<SurfacePatch> patch;
+  std::vector<CellFacet> facet;  ///< if asked for
 };
+
+/// What measure_cells is asked for.
+enum class CellParts { cells_and_surface, facets_too };
 
 /// Whether cells are the blocks of a lattice: a box that one fills.
 inline bool has_lattice_cells(Body const& body) { return body.regular && !body.off_lattice && !body.outline.inside; }
 
 /// Exact for boxes filled from a lattice. Others are sampled by blocks of a sixth of the spacing, aligned with the box
 /// around them, packed ones stretched to their exact volume (record 21). Volumes and surface are of the same body, so
-/// the divergence theorem holds for quadratic fields to round-off. Needs Body::outline. Cells may be without a block.
-BodyCells measure_cells(ParticleSet const& set, Body const& body);
+/// the divergence theorem holds for quadratic fields to round-off, for every cell by itself. Needs Body::outline. Cells
+/// may be without a block.
+BodyCells measure_cells(ParticleSet const& set, Body const& body, CellParts parts = CellParts::cells_and_surface);
 
 /// Gives the particles of a body the volumes of their cells.
 void take_cell_volumes(ParticleSet& set, Body const& body);

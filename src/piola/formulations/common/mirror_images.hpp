@@ -42,6 +42,15 @@ class MirrorImages {
   std::array<double, 3> const& sign(Index k) const {
     return maps_[static_cast<std::size_t>(transform_[static_cast<std::size_t>(k)])].sign;
   }
+  /// X -> sign X + shift, axis by axis; a displacement turns into turn * sign * itself.
+  struct Map {
+    std::array<double, 3> sign, shift;
+    double turn;
+  };
+  /// The maps of the body to what is behind its planes.
+  std::vector<Map> const& maps() const { return maps_; }
+  /// Coordinate of a plane across an axis [m].
+  double plane(std::size_t axis, bool upper) const { return at_[axis][upper ? 1 : 0]; }
   /// Keeps only these images (ascending). Call before copies().
   void keep(std::vector<Index> const& images);
   /// Supports that enforce the planes: particles on a plane have no velocity across it, or along it if skew.
@@ -52,11 +61,6 @@ class MirrorImages {
   Copies const* copies(int values, std::function<bool(int value, int axis)> const& turns);
 
  private:
-  /// X -> sign X + shift, axis by axis; a displacement turns into turn * sign * itself.
-  struct Map {
-    std::array<double, 3> sign, shift;
-    double turn;
-  };
   struct AxisMap {
     double sign, shift, turn;
   };

@@ -31,10 +31,6 @@ void restore(BodyState& body) {
   with_step(body, [](auto one_step) { one_step.restore(); });
 }
 
-void project(BodyState& body, ProjectionFields const& fields) {
-  with_step(body, [&](auto one_step) { one_step.project(fields); });
-}
-
 void subtract_gradients(BodyState& body, FieldRef const& centroid) {
   with_step(body, [&](auto one_step) { one_step.subtract_gradients(centroid); });
 }
@@ -50,7 +46,7 @@ double largest_change(BodyState& body) {
 
 /// The entry by which the host finds this instruction set.
 extern Backend const backend;
-Backend const backend{PIOLA_BACKEND_NAME, lane_count, &step,    &accelerate, &update_output_fields,
-                      &largest_change,    &keep,      &restore, &project,    &subtract_gradients};
+Backend const backend{PIOLA_BACKEND_NAME, lane_count, &step,    &accelerate,        &update_output_fields,
+                      &largest_change,    &keep,      &restore, &subtract_gradients};
 
 }  // namespace piola::nodal::inline PIOLA_BACKEND

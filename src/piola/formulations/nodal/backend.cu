@@ -4,18 +4,10 @@
 #include "piola/exec/device_launch.hpp"
 #include "piola/formulations/nodal/boundary_passes.hpp"
 #include "piola/formulations/nodal/mirror_passes.hpp"
-#include "piola/formulations/nodal/projection.hpp"
 #include "piola/formulations/nodal/stress_points.hpp"
 
 namespace piola::nodal::inline PIOLA_BACKEND {
 namespace {
-
-template <class Sweep>
-struct WithBlockScratch {
-  Sweep sweep;
-  exec::Scratch scratch;
-  __host__ __device__ void operator()(Range b, Index) const { sweep(b, scratch); }
-};
 
 template <class Sweep>
 void launch_sweep(Range r, void const* passes, exec::Scratch const& scratch) {
@@ -32,22 +24,13 @@ void launch_each(Range r, void const* passes) {
   exec::for_each(r, exec::as<Pass>(passes));
 }
 
-/// Sweeps over lattices use one thread per block.
-template <int D>
-void launch_lattice(Range r, void const* passes, exec::Scratch const& scratch) {
-  exec::for_each_block(
-      r, WithBlockScratch<SumLatticeMotion<D>>{*static_cast<SumLatticeMotion<D> const*>(passes), scratch});
-  exec::for_each_block(r, *static_cast<SumLatticeForces<D> const*>(passes));
-  launch_each<MultiplyByCorrections<D>>(r, passes);
-}
-
 template <int D>
 void launch_all(Range r, void const* passes, exec::Scratch const& scratch) {
   launch_sweep<SumMotion<D>>(r, passes, scratch);
   launch_laws<D>(r, passes, scratch, Laws{});
   launch_each<SumForces<D>>(r, passes);
-  launch_lattice<D>(r, passes, scratch);
-  launch_sweep<ProjectQuadratic<D>>(r, passes, scratch);
+  launch_sweep<SumLatticeMotion<D>>(r, passes, scratch);
+  launch_each<SumLatticeForces<D>>(r, passes);
   launch_sweep<SubtractGradients<D>>(r, passes, scratch);
   launch_each<KickAndDrift<D>>(r, passes);
   launch_each<Kick<D>>(r, passes);

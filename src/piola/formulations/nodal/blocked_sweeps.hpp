@@ -3,7 +3,7 @@
 #include "piola/exec/device_loops.hpp"
 #include "piola/exec/field_view.hpp"
 
-/// Reads many components of a field at once; sweeps over blocks.
+/// Reads many components of a field at once.
 namespace piola::nodal::inline PIOLA_BACKEND {
 
 /// Components of a group of lanes that are contiguous in memory; the layout is evaluated once, not per component.
@@ -16,18 +16,5 @@ PIOLA_FN LanesOfField lanes_of(View const& v, Index i) {
   return {v.data + i * v.particle_stride + (i >> tile_bits) * v.tile_extra, v.component_stride};
 }
 PIOLA_FN LanesOfField lanes_of(ReferenceView const& v, Index i) { return lanes_of(v.stored, v.place(i)); }
-
-/// A sweep that fills the scratch of a whole block, fused with the point-wise pass that uses the sums.
-template <class Sweep>
-struct FusedBlock {
-  Sweep sweep;
-  exec::PointPass then;
-  PIOLA_FN void operator()(Range b, Index) const {
-    alignas(64) double sums[Sweep::sums * exec::block_size];
-    exec::Scratch const scratch{sums, b.first, exec::block_size};
-    sweep(b, scratch);
-    then.run(then.pass, b, scratch);
-  }
-};
 
 }  // namespace piola::nodal::inline PIOLA_BACKEND

@@ -50,15 +50,13 @@ MirrorImages images_of(Assembly const& assembly, std::size_t number, Body const&
   return {assembly, number, order, reach};
 }
 
-/// How images follow: records of motion have X and mu of their own, which stay.
+/// How images follow: records of motion have X of their own, which stays.
 void attach_images(BodyState& state, MirrorImages& images) {
   state.x.copies = images.copies({MirrorImages::Kind::position});
   with_dimension(state.dimension, [&](auto dimension) {
-    constexpr int D = dimension, width = Records<D>::width;
-    state.stress_for_neighbours.copies = images.copies(D * width, [](int value, int axis) {
-      int const m = value % width;
-      return (value / width == axis) != (m < Records<D>::used && turns<D>(m, axis));
-    });
+    constexpr int D = dimension, used = Records<D>::used;
+    state.stress_for_neighbours.copies = images.copies(
+        D * used, [](int value, int axis) { return (value / used == axis) != turns<D>(value % used, axis); });
   });
 }
 
@@ -107,14 +105,12 @@ void NodalBody::make_reference(Assembly const& assembly, Backend const& backend)
 void NodalBody::allocate() {
   Index const n = order_.slots();
   auto& s = state_;
-  if (reference_.lattice)
-    NeighbourRecords::place_lattice(fields_, s, n, reference_.lattice->guard());
-  else
+  bool const on_lattice = !reference_.lattice.empty();
+  if (on_lattice) {
+    NeighbourRecords::place_lattice(fields_, s, n, reference_.lattice.guard);
+  } else {
     records_.place_records(fields_, s, n + images_.count());
-  if (auto const& group = reference_.group_of_k; !group.empty()) {
-    Field& k = fields_[s.k];
-    k.allocate_tiled(static_cast<Index>(reference_.k.size()) / k.components());
-    k.share(group.data());
+    fields_[s.k].allocate_tiled(n);
   }
   fields_.each_without_memory([&](Field& f) {
     if (f.components() > 1)
@@ -123,11 +119,11 @@ void NodalBody::allocate() {
       f.allocate(n, 0);
   });
   fields_.bind();
-  s.motion_for_neighbours = reference_.lattice ? s.products : s.X;
-  s.stress_for_neighbours = s.stress;
+  s.motion_for_neighbours = on_lattice ? s.x : s.X;
+  s.stress_for_neighbours = on_lattice ? s.resultants : s.stress;
   if (!images_.empty()) attach_images(s, images_);
   s.list = reference_.list();
-  if (reference_.lattice) s.lattice = reference_.lattice->table();
+  s.lattice = reference_.lattice.table();
   if (!halo_) return;
   s.halo = &halo_->plan;
   s.ghosts = halo_->plan.received().data();
@@ -137,7 +133,7 @@ void NodalBody::allocate() {
 
 void NodalBody::fill(Assembly const& assembly, Backend const& backend) {
   FieldSetUp set_up(*this, reference_, assembly);
-  set_up.fill_reference(records_);
+  set_up.fill_reference();
   if (!images_.empty()) {
     mirrored_ = set_up.keep_own_side();
     state_.boundary.mirrored = mirrored_.data();
@@ -196,7 +192,7 @@ void NodalBody::damp(double factor) {
 std::size_t NodalBody::bytes() const {
   auto const& r = reference_;
   std::size_t total = records_.bytes() + order_.id.size() * 8 + r.begin.size() * 8 + r.neighbour.size() * 4 +
-                      r.weight.size() * 8 + r.group_of_k.size() * 4 +
+                      (r.weight.size() + r.gradient.size() + r.reaction.size()) * 8 + r.lattice.bytes() +
                       (r.V.size() + r.mass.size() + r.X.size() + partial_.size()) * 8;
   total += r.neighbour.size() * 8 + r.V.size() * 8;  // the smoothing of observers
   return total + fields_.bytes() + boundary_->bytes();

@@ -12,28 +12,27 @@ namespace piola::nodal::inline PIOLA_BACKEND {
 /// quadratic deformation.
 template <int D>
 struct TurnLoads {
-  static constexpr int values = Quadratic<D>::values, terms = Quadratic<D>::terms, second = Quadratic<D>::second,
-                       width = Records<D>::width;
+  static constexpr int second = Quadratic<D>::second;
   bool at_end;
   LoadedParticle* loaded;
   double const* centroid;  ///< [loaded][D]: of the cell, relative to the particle [m]
   ListSums<D> list;
-  ReferenceView g, k;
+  ReferenceView k;
   View offset;
 
   PIOLA_FN void operator()(Index n) const {
+    using R = Records<D>;
     LoadedParticle& p = loaded[n];
-    double rows[D * width];
+    double rows[D * R::width];
     list.of_motion(p.slot, rows);
     Mat<D> F;
     for (int c = 0; c < D; ++c) {
-      double const* const T = rows + c * width;
+      double const* const T = rows + c * R::width;
       double H[second]{};
-      for (int m = 1; m < values; ++m)
-        for (int s = 0; s < second; ++s) H[s] += T[m] * k.template scalar<double>(p.slot, (m - 1) * second + s);
+      for (int m = 0; m < R::terms; ++m)
+        for (int s = 0; s < second; ++s) H[s] += T[m] * k.template scalar<double>(p.slot, m * second + s);
       for (int J = 0; J < D; ++J) {
-        F(c, J) = T[values + J] + (offset.data == nullptr ? 0 : offset.scalar<double>(p.slot, c * D + J));
-        for (int m = 0; m < values; ++m) F(c, J) += T[m] * g.template scalar<double>(p.slot, m * D + J);
+        F(c, J) = T[R::terms + J] + (offset.data == nullptr ? 0 : offset.scalar<double>(p.slot, c * D + J));
         for (int K = 0; K < D; ++K) F(c, J) -= H[Quadratic<D>::at(J, K)] * centroid[n * D + K];
       }
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/constrained_facets.hpp"
-#include "piola/formulations/nodal/integration_constraint.hpp"
 #include "piola/formulations/nodal/loaded_face.hpp"
+#include "piola/formulations/nodal/surface_integrals.hpp"
 #include <limits>
 #include <map>
 

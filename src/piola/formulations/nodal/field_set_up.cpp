@@ -15,31 +15,25 @@ void copy_at(LazyZeroArray<double> const& from, FieldRef const& to, int componen
 
 }  // namespace
 
-void FieldSetUp::fill_reference(NeighbourRecords& records) {
+void FieldSetUp::fill_reference() {
   auto& r = reference_;
-  int const D = s_.dimension, values = Fields::values(D), of_k = Fields::terms(D) * Fields::second(D);
+  int const D = s_.dimension, second = Fields::second(D);
+  bool const lists = r.lattice.empty();
   exec_host::parallel_for(s_.slots, [&](Index i) {
     copy_at(r.V, s_.V, 1, i);
     copy_at(r.mass, s_.mass, 1, i);
     copy_at(r.L, s_.L, D * D, i);
-    copy_at(r.g, s_.g, values * D, i);
-    copy_at(r.own, s_.own, values + D, i);
-    if (r.group_of_k.empty()) copy_at(r.k, s_.k, of_k, i);
+    copy_at(r.own, s_.own, D + second, i);
+    if (lists) copy_at(r.k, s_.k, Fields::terms(D) * second, i);
     // Slots without a particle hold nothing that counts.
     for (int c = 0; c < D && i < body_.particles(); ++c) value_at(s_.C_measured, i, c) = 1;
   });
-  Index const stored_k = r.group_of_k.empty() ? 0 : static_cast<Index>(r.k.size()) / of_k;
-  for (Index i = 0; i < stored_k; ++i) copy_at(r.k, s_.k, of_k, i);
-  auto const fill_seen = [&](Index i) {
-    copy_at(r.mu, s_.mu, D, i);
-    if (r.lattice) return;
-    copy_at(r.X, s_.X, D, i);
-    records.complete_record(D, i);
-  };
-  exec_host::parallel_for(s_.slots, fill_seen);
-  for (std::size_t n = 0; n < r.images.size(); ++n) fill_seen(body_.slots() + static_cast<Index>(n));
-  for (Index n = 0; n < s_.ghost_count; ++n) fill_seen(s_.ghosts[n]);
-  for (auto* array : {&r.L, &r.g, &r.k, &r.own, &r.mu}) LazyZeroArray<double>().swap(*array);
+  if (lists) {
+    exec_host::parallel_for(s_.slots, [&](Index i) { copy_at(r.X, s_.X, D, i); });
+    for (std::size_t n = 0; n < r.images.size(); ++n) copy_at(r.X, s_.X, D, body_.slots() + static_cast<Index>(n));
+    for (Index n = 0; n < s_.ghost_count; ++n) copy_at(r.X, s_.X, D, s_.ghosts[n]);
+  }
+  for (auto* array : {&r.L, &r.k, &r.own}) LazyZeroArray<double>().swap(*array);
 }
 
 std::vector<MirroredParticle> FieldSetUp::keep_own_side() {

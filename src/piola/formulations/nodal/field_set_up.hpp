@@ -14,7 +14,7 @@ class FieldSetUp {
       : body_(body), s_(body.state()), reference_(reference), assembly_(assembly) {}
 
   /// Fields and records from the reference data, which release what fields now hold.
-  void fill_reference(NeighbourRecords& records);
+  void fill_reference();
   /// Particles on mirror planes, half of whose volume belongs to the body: scales masses and areas of loaded faces.
   std::vector<MirroredParticle> keep_own_side();
   /// Positions and velocities of t = 0.

@@ -41,10 +41,9 @@ struct FieldNeeds {
 /// The one list of particle fields of the nodal formulation, and what loops get of them. Memory and checkpoints follow
 /// from it. Numbers of components as in quadratic.hpp.
 struct Fields {
-  /// Numbers of second derivatives, of terms of a quadratic without the constant and with it, of points of a cell.
+  /// Numbers of second derivatives, of terms of a quadratic without the constant, of points of a cell.
   static constexpr int second(int D) { return D * (D + 1) / 2; }
   static constexpr int terms(int D) { return D + second(D); }
-  static constexpr int values(int D) { return 1 + terms(D); }
   static constexpr int points(int D) { return D == 3 ? 4 : 1 << D; }
   /// Strain and viscous stress at every point, and three values of the cell.
   static constexpr int viscous_values(int D) { return 2 * points(D) * second(D) + 3; }
@@ -60,16 +59,15 @@ struct Fields {
   FieldNeeds has;
 
   // Reference: volume of the cell; mass; Cholesky factor of the cell's spread times the parity (columns of L: D x D);
-  // matrices from sums to derivatives: g (values x D) for F, k (terms x second) for H; sums of s P and of s mu;
-  // corrections of the gradients; offset of F over the gradient of positions, from the start.
+  // of lists the matrix k from sums to second derivatives (terms x second); sums of G and K over the neighbours;
+  // offset of F over the gradient of positions, from the start.
   ListedRef V{owner, "CellVolume", "m3", 1, Role::reference};
   ListedRef mass{owner, "Mass", "kg", 1, Role::reference};
   ListedRef L{owner, "CellSpread", "m", dimension* dimension, Role::reference};
-  ListedRef g{owner, "GradientOfSums", "1/m", values(dimension) * dimension, Role::reference};
-  ListedRef k{owner, "SecondDerivativeOfSums", "1/m2", terms(dimension) * second(dimension), Role::reference};
-  ListedRef own{owner, "SumsOfWeights", "1", values(dimension) + dimension, Role::reference};
+  ListedRef k{owner,     "SecondDerivativeOfSums", "1/m2", terms(dimension) * second(dimension), Role::reference,
+              in_records};
+  ListedRef own{owner, "SumsOfGradients", "1", dimension + second(dimension), Role::reference};
   ListedRef X{owner, "ReferencePositionInSpacings", "1", dimension, Role::reference, in_records};
-  ListedRef mu{owner, "GradientCorrection", "1/m", dimension, Role::reference};
   ListedRef offset{owner, "GradientOffset", "1", dimension* dimension, Role::reference, has.offset};
 
   // Evolved: position, velocity; acceleration by all forces at x; F^T F at the last measurement of the step; largest
@@ -82,9 +80,10 @@ struct Fields {
   ListedRef history{owner, "SolidHistory", "1", solid_values(dimension), Role::evolved, has.solids};
   ListedRef viscous{owner, "ViscousHistory", "1", viscous_values(dimension), Role::evolved, has.viscosity};
 
-  // Derived: of a lattice x_c mu_J; rows (Y_i, Z_i).
-  ListedRef products{owner, "CorrectedPosition", "1", dimension* dimension, Role::derived, in_records};
-  ListedRef stress{owner, "StressOfSums", "N/m", values(dimension) * dimension + dimension* dimension, Role::derived};
+  // Derived, one of them: of lists rows (Q_i k^T, P_i); of lattices rows (P_i, Q_i).
+  ListedRef stress{owner, "StressOfSums", "Pa", dimension*(terms(dimension) + dimension), Role::derived, in_records};
+  ListedRef resultants{owner,         "StressResultants", "Pa", dimension*(dimension + second(dimension)),
+                       Role::derived, in_records};
   // By Backend::update_output_fields alone, not by steps: gradient at the centroid; mean stress, three-dimensional;
   // energy per volume, mean J, least J, mean stretch of a missing direction.
   ListedRef F{owner, "DeformationGradient", "1", dimension* dimension, Role::derived};

@@ -6,16 +6,12 @@
 
 namespace piola::nodal {
 
-/// Adds the fields of ghost exchanges of a body: positions, and rows (Y_i, Z_i) of stress.
+/// Adds the fields of ghost exchanges of a body: positions, and what neighbours read of the stress.
 template <int D>
 void add_halo_fields(HaloPlan& halo, BodyState const& state) {
-  using R = Records<D>;
+  constexpr int of_list = Records<D>::used, of_lattice = D + Quadratic<D>::second;
   halo.add(state.x, 0, D);
-  halo.add(state.motion_for_neighbours, 0, 0);  // products of x; in a record only x changes
-  if (state.lattice.present != nullptr)
-    halo.add(state.stress_for_neighbours, 0, D * R::used);
-  else
-    for (int c = 0; c < D; ++c) halo.add(state.stress_for_neighbours, c * R::width, R::used);
+  halo.add(state.stress_for_neighbours, 0, D * (state.lattice.group != nullptr ? of_lattice : of_list));
 }
 
 }  // namespace piola::nodal

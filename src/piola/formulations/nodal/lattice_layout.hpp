@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/nodal/lattice.hpp"
 #include "piola/particles/ordering.hpp"
 #include <array>
 #include <optional>
@@ -32,27 +31,5 @@ SlotOrder slot_order(ParticleSet const& set, Body const& body);
 
 /// The lattice that a body fills in this order; empty if none.
 std::optional<LatticeShape> lattice_shape(ParticleSet const& set, Body const& body, SlotOrder const& order);
-
-/// Lattice data for loops with a given number of SIMD lanes.
-class LatticeLayout {
- public:
-  LatticeLayout(LatticeShape const& shape, Index slots, int lanes);
-  /// Valid during the lifetime of the layout.
-  LatticeTable table() const {
-    LatticeTable t = table_;
-    t.present = present_.data();
-    return t;
-  }
-  /// Slots before the first and after the last one that loops may read.
-  Index guard() const { return guard_; }
-
- private:
-  template <int D>
-  void mark(LatticeShape const& shape, Index slots, int lanes);
-
-  LatticeTable table_;
-  std::vector<std::uint8_t> present_;
-  Index guard_ = 0;
-};
 
 }  // namespace piola::nodal

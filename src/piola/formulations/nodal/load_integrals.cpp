@@ -13,18 +13,17 @@ using Point = std::array<double, 3>;
 
 /// Areas times normals, added up over patches as they are.
 template <int D>
-LazyZeroArray<FacePart> vector_parts(LoadedFace<D> const& face, IntegrationConstraint<D> const& divergence,
-                                     Point const& area) {
-  LazyZeroArray<Point> sum(divergence.particles());
+LazyZeroArray<FacePart> vector_parts(LoadedFace<D> const& face, SurfaceIntegrals<D> const& surface, Point const& area) {
+  LazyZeroArray<Point> sum(surface.particles());
   for (int axis = 0; axis < D; ++axis) {
-    auto const share = divergence.shares([&](SurfacePatch const& p) {
+    auto const share = surface.shares([&](SurfacePatch const& p) {
       double const whole = p.axis == axis && face.has(p) ? area[static_cast<std::size_t>(axis)] : 0;
       return p.upper ? whole : -whole;
     });
-    divergence.for_each_local([&](std::size_t b) { sum[b][static_cast<std::size_t>(axis)] = share[b]; });
+    surface.for_each_local([&](std::size_t b) { sum[b][static_cast<std::size_t>(axis)] = share[b]; });
   }
   LazyZeroArray<FacePart> parts(sum.size());
-  divergence.for_each_local([&](std::size_t b) {
+  surface.for_each_local([&](std::size_t b) {
     double const size = std::sqrt(sum[b][0] * sum[b][0] + sum[b][1] * sum[b][1] + sum[b][2] * sum[b][2]);
     if (size > 0) parts[b] = {size, {sum[b][0] / size, sum[b][1] / size, sum[b][2] / size}};
   });
@@ -33,12 +32,12 @@ LazyZeroArray<FacePart> vector_parts(LoadedFace<D> const& face, IntegrationConst
 
 /// Areas of the exact surface: projections of the patches on its normals.
 template <int D>
-LazyZeroArray<FacePart> scalar_parts(LoadedFace<D> const& face, IntegrationConstraint<D> const& divergence,
-                                     Point const& area, std::optional<Point> const& normal) {
+LazyZeroArray<FacePart> scalar_parts(LoadedFace<D> const& face, SurfaceIntegrals<D> const& surface, Point const& area,
+                                     std::optional<Point> const& normal) {
   auto const share =
-      divergence.shares([&](SurfacePatch const& p) { return face.cosine(p) * area[static_cast<std::size_t>(p.axis)]; });
+      surface.shares([&](SurfacePatch const& p) { return face.cosine(p) * area[static_cast<std::size_t>(p.axis)]; });
   LazyZeroArray<FacePart> parts(share.size());
-  divergence.for_each_local([&](std::size_t b) { parts[b] = {share[b], normal.value_or(Point{})}; });
+  surface.for_each_local([&](std::size_t b) { parts[b] = {share[b], normal.value_or(Point{})}; });
   return parts;
 }
 
@@ -105,7 +104,7 @@ void check_area(SetUp const& from, Load const& load, WholeArea const& found, Laz
 
 template <int D>
 std::vector<LazyZeroArray<FacePart>> load_integrals(SetUp const& from, LocalFits<D> const& fits,
-                                                    IntegrationConstraint<D> const& divergence, FacePartsOf const& of) {
+                                                    SurfaceIntegrals<D> const& surface, FacePartsOf const& of) {
   std::vector<LazyZeroArray<FacePart>> parts;
   Point area{1, 1, 1};  // of a patch of size one in spacings, by its axis
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -113,20 +112,19 @@ std::vector<LazyZeroArray<FacePart>> load_integrals(SetUp const& from, LocalFits
   for (auto const& load : from.loads) {
     parts.emplace_back();
     if (!load.on_face()) continue;
-    LoadedFace<D> const face(from, fits, divergence.patches(), load);
+    LoadedFace<D> const face(from, fits, surface.patches(), load);
     bool const by_area = load.normal || !load.pressure;
-    parts.back() =
-        by_area ? scalar_parts<D>(face, divergence, area, load.normal) : vector_parts<D>(face, divergence, area);
+    parts.back() = by_area ? scalar_parts<D>(face, surface, area, load.normal) : vector_parts<D>(face, surface, area);
     check_area(from, load, area_of(from, fits, parts.back()), by_area ? &parts.back() : nullptr, of.checks);
   }
   return parts;
 }
 
 template std::vector<LazyZeroArray<FacePart>> load_integrals<1>(SetUp const&, LocalFits<1> const&,
-                                                                IntegrationConstraint<1> const&, FacePartsOf const&);
+                                                                SurfaceIntegrals<1> const&, FacePartsOf const&);
 template std::vector<LazyZeroArray<FacePart>> load_integrals<2>(SetUp const&, LocalFits<2> const&,
-                                                                IntegrationConstraint<2> const&, FacePartsOf const&);
+                                                                SurfaceIntegrals<2> const&, FacePartsOf const&);
 template std::vector<LazyZeroArray<FacePart>> load_integrals<3>(SetUp const&, LocalFits<3> const&,
-                                                                IntegrationConstraint<3> const&, FacePartsOf const&);
+                                                                SurfaceIntegrals<3> const&, FacePartsOf const&);
 
 }  // namespace piola::nodal

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/nodal/integration_constraint.hpp"
 #include "piola/formulations/nodal/set_up.hpp"
+#include "piola/formulations/nodal/surface_integrals.hpp"
 
 namespace piola::nodal {
 
@@ -16,16 +16,13 @@ struct FacePartsOf {
 /// to the wrong face. Collective on a distributed body.
 template <int D>
 std::vector<LazyZeroArray<FacePart>> load_integrals(SetUp const& from, LocalFits<D> const& fits,
-                                                    IntegrationConstraint<D> const& divergence, FacePartsOf const& of);
+                                                    SurfaceIntegrals<D> const& surface, FacePartsOf const& of);
 
 extern template std::vector<LazyZeroArray<FacePart>> load_integrals<1>(SetUp const&, LocalFits<1> const&,
-                                                                       IntegrationConstraint<1> const&,
-                                                                       FacePartsOf const&);
+                                                                       SurfaceIntegrals<1> const&, FacePartsOf const&);
 extern template std::vector<LazyZeroArray<FacePart>> load_integrals<2>(SetUp const&, LocalFits<2> const&,
-                                                                       IntegrationConstraint<2> const&,
-                                                                       FacePartsOf const&);
+                                                                       SurfaceIntegrals<2> const&, FacePartsOf const&);
 extern template std::vector<LazyZeroArray<FacePart>> load_integrals<3>(SetUp const&, LocalFits<3> const&,
-                                                                       IntegrationConstraint<3> const&,
-                                                                       FacePartsOf const&);
+                                                                       SurfaceIntegrals<3> const&, FacePartsOf const&);
 
 }  // namespace piola::nodal

@@ -108,9 +108,9 @@ Pairs find_pairs(Points const& X, std::span<double const> reach, IndexSet const&
   return pairs;
 }
 
-Pairs lattice_pairs(LatticeShape const& shape, double reach, IndexSet const& rows) {
+std::vector<std::array<int, 3>> offsets_in_reach(double reach) {
   PIOLA_EXPECTS(reach > 0);
-  std::vector<std::array<int, 3>> offsets;  // in the order of slots
+  std::vector<std::array<int, 3>> offsets;
   int const steps = static_cast<int>(reach);
   for (int k = -steps; k <= steps; ++k)
     for (int j = -steps; j <= steps; ++j)
@@ -118,6 +118,11 @@ Pairs lattice_pairs(LatticeShape const& shape, double reach, IndexSet const& row
         int const square = i * i + j * j + k * k;
         if (square > 0 && square < edge * reach * reach) offsets.push_back({i, j, k});
       }
+  return offsets;
+}
+
+Pairs lattice_pairs(LatticeShape const& shape, double reach, IndexSet const& rows) {
+  auto const offsets = offsets_in_reach(reach);
   Pairs pairs;
   Index const particles = shape.count[0] * shape.count[1] * shape.count[2];
   // f(neighbour) for all neighbours of a.
@@ -178,6 +183,7 @@ LocalFits<D>::LocalFits(Points const& X, std::optional<LatticeShape> const& latt
 /// Particles as far from all faces, or out of their reach, have the same neighbours.
 template <int D>
 void LocalFits<D>::fit_lattice(LatticeShape const& shape) {
+  lattice_ = shape;
   representative_ = representatives_in_lattice(shape, static_cast<int>(usual_reach) + 1);
   kind_.resize(X_.size());
   std::vector<std::size_t> first;  // of each kind
@@ -236,8 +242,21 @@ bool LocalFits<D>::lengthen(std::vector<char> const& fits) {
 }
 
 template <int D>
+bool LocalFits<D>::refine(std::vector<char> const& good) {
+  if (lengthen(good)) return true;
+  if (hopeless_ < 0) fit_cloud();
+  return false;
+}
+
+template <int D>
+Index LocalFits<D>::enlarged() const {
+  return static_cast<Index>(std::count_if(reach_.begin() + own().first, reach_.begin() + own().last,
+                                          [](double reach) { return reach > usual_reach; }));
+}
+
+template <int D>
 void LocalFits<D>::fit_cloud() {
-  usual_ = true;
+  lattice_.reset();
   representative_.clear();
   kind_.clear();
   rows_ = IndexSet(static_cast<Index>(X_.size()));
@@ -253,14 +272,39 @@ void LocalFits<D>::fit_cloud() {
       fits[a] = fit(a, a) ? 1 : 0;
     });
     complete = lengthen(fits);
-    usual_ = usual_ && complete;
   }
+  usual_ = std::all_of(reach_.begin(), reach_.end(), [](double reach) { return reach == usual_reach; });
+}
+
+template <int D>
+std::array<double, 3> LocalFits<D>::difference(std::size_t a, std::size_t b) const {
+  std::array<double, 3> r{};
+  if (lattice_) {
+    auto const from = lattice_->place(static_cast<Index>(a)), to = lattice_->place(static_cast<Index>(b));
+    for (std::size_t c = 0; c < D; ++c) r[lattice_->axis[c]] = to[c] - from[c];
+  } else {
+    for (std::size_t c = 0; c < D; ++c) r[c] = X_[b][c] - X_[a][c];
+  }
+  return r;
+}
+
+template <int D>
+double LocalFits<D>::nearness(std::size_t a, std::size_t b) const {
+  auto const r = difference(a, b);
+  double const reach = std::max(reach_[a], reach_[b]);
+  return 1 - (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]) / (reach * reach);
+}
+
+template <int D>
+bool LocalFits<D>::sees(std::size_t a, std::size_t b) const {
+  return nearness(a, b) > 1 - edge * edge;
 }
 
 template <int D>
 typename LocalFits<D>::Monomials LocalFits<D>::monomials_of(std::size_t a, std::size_t b) const {
+  auto const difference_of = difference(a, b);
   Vec<D> r;
-  for (int c = 0; c < D; ++c) r[c] = X_[b][static_cast<std::size_t>(c)] - X_[a][static_cast<std::size_t>(c)];
+  for (int c = 0; c < D; ++c) r[c] = difference_of[static_cast<std::size_t>(c)];
   double p[Quadratic<D>::values];
   monomials<D>(r, p);
   Monomials result;
@@ -293,11 +337,6 @@ typename LocalFits<D>::Monomials LocalFits<D>::derivatives(std::size_t a, std::s
     e[static_cast<std::size_t>(k)] *= pairs_.weight[pair];
   }
   return e;
-}
-
-template <int D>
-double LocalFits<D>::own_weight(std::size_t a) const {
-  return weight_of(1, reach_[a]);
 }
 
 template class LocalFits<1>;

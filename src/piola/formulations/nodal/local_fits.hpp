@@ -3,7 +3,6 @@
 #include "piola/domain/slot_collectives.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/exec/lazy_zero_array.hpp"
-#include "piola/formulations/common/unique_lane_groups.hpp"
 #include "piola/formulations/nodal/index_set.hpp"
 #include "piola/formulations/nodal/lattice_layout.hpp"
 #include "piola/formulations/nodal/quadratic.hpp"
@@ -38,6 +37,9 @@ struct Pairs {
 /// Per particle of a lattice: the first one with equal distances from all faces, where distances of `beyond` spacings
 /// or more count as equal.
 std::vector<Index> representatives_in_lattice(LatticeShape const& shape, int beyond);
+
+/// Steps along the directions of a lattice to the neighbours nearer than `reach` (exclusive), in the order of slots.
+std::vector<std::array<int, 3>> offsets_in_reach(double reach);
 
 /// Pairs of the particles `rows` of a lattice nearer than `reach` (exclusive), without weights and without a search.
 Pairs lattice_pairs(LatticeShape const& shape, double reach, IndexSet const& rows);
@@ -101,6 +103,17 @@ class LocalFits {
   /// Moves the pairs out. No other member may be called afterwards.
   Pairs take_pairs() { return std::move(pairs_); }
   Points const& X() const { return X_; }
+  /// X_b - X_a; on a lattice whole numbers.
+  std::array<double, 3> difference(std::size_t a, std::size_t b) const;
+  /// Whether b is within the larger of the support radii of two particles, or is a itself.
+  bool sees(std::size_t a, std::size_t b) const;
+  /// 1 - (r/R)^2 of two particles.
+  double nearness(std::size_t a, std::size_t b) const;
+  /// Enlarges the support radii of the points whose entry in `good` is 0, and fits anew. Returns whether there was
+  /// none. Collective if the points are distributed, with entries that count for local points.
+  bool refine(std::vector<char> const& good);
+  /// Local points whose support radius is above the usual one.
+  Index enlarged() const;
   /// (A^-1)_kl of a particle.
   double inverse(std::size_t a, int k, int l) const {
     return inverse_[(kind_.empty() ? a : static_cast<std::size_t>(kind_[a])) * static_cast<std::size_t>(terms * terms) +
@@ -114,8 +127,6 @@ class LocalFits {
   Monomials monomials_of(std::size_t a, std::size_t b) const;
   /// e_ab: the weight of the value at b in the first and second derivatives at a.
   Monomials derivatives(std::size_t a, std::size_t pair) const;
-  /// Weight s of a particle with itself in fits that include its own value: that of a neighbour at distance one.
-  double own_weight(std::size_t a) const;
 
  private:
   void fit_lattice(LatticeShape const& shape);
@@ -132,6 +143,7 @@ class LocalFits {
   std::vector<double> reach_;
   Pairs pairs_;
   LazyZeroArray<double> inverse_;
+  std::optional<LatticeShape> lattice_;  ///< of points whose neighbours are those of its loops
   std::vector<Index> representative_;
   std::vector<std::int32_t> kind_;  ///< of a lattice: index of the inverse of a particle
   Index hopeless_ = -1;
@@ -141,16 +153,5 @@ class LocalFits {
 extern template class LocalFits<1>;
 extern template class LocalFits<2>;
 extern template class LocalFits<3>;
-
-/// Groups of lanes of a lattice with identical neighbourhoods, which have the same fits. Arguments as those of
-/// UniqueLaneGroups.
-template <int D>
-UniqueLaneGroups groups_of_fits(LocalFits<D> const& fits, Range slots, Index all_slots, int lanes) {
-  return {slots, all_slots, lanes, [&](Index first, std::vector<double>& key) {
-            auto const end = std::min(static_cast<std::size_t>(first + lanes), fits.X().size());
-            for (auto a = static_cast<std::size_t>(first); a < end; ++a)
-              key.push_back(static_cast<double>(fits.representative(a)));
-          }};
-}
 
 }  // namespace piola::nodal

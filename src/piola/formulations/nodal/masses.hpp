@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/formulations/nodal/integration_constraint.hpp"
+#include "piola/formulations/nodal/surface_integrals.hpp"
 #include <vector>
 
 namespace piola::nodal {

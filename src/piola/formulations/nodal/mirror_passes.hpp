@@ -7,16 +7,16 @@
 /// Passes over the particles on mirror planes. Theory: docs/theory/nodal.md, section 6.
 namespace piola::nodal::inline PIOLA_BACKEND {
 
-/// Whether a component changes its sign in a mirror across `axis`: monomials (1, p), followed by the components of a
-/// vector, as in Records.
+/// Whether a component changes its sign in a mirror across `axis`: monomials without the constant, followed by the
+/// components of a vector, as in Records.
 template <int D>
 constexpr bool turns(int m, int axis) {
-  constexpr int values = Quadratic<D>::values;
-  if (m >= values) return m - values == axis;
-  if (m >= 1 && m <= D) return m - 1 == axis;
+  constexpr int terms = Quadratic<D>::terms;
+  if (m >= terms) return m - terms == axis;
+  if (m < D) return m == axis;
   bool odd = false;
   for (int J = 0; J < D; ++J)
-    if (J != axis && m > D && m == 1 + D + Quadratic<D>::at(J, axis)) odd = true;
+    if (J != axis && m == D + Quadratic<D>::at(J, axis)) odd = true;
   return odd;
 }
 
@@ -33,7 +33,7 @@ struct KeepEven {
       if ((p.axes >> axis & 1) == 0) continue;
       for (int c = 0; c < D; ++c)
         for (int m = 0; m < Records<D>::used; ++m)
-          if ((c == axis) != turns<D>(m, axis)) stress.scalar(p.slot, 0.0, c * Records<D>::width + m);
+          if ((c == axis) != turns<D>(m, axis)) stress.scalar(p.slot, 0.0, c * Records<D>::used + m);
     }
   }
 };

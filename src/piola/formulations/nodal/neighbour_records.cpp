@@ -7,11 +7,10 @@ namespace {
 
 /// Sizes of Records of a dimension.
 struct RecordSizes {
-  std::ptrdiff_t motion, stress;
-  int one;
+  std::ptrdiff_t motion, position, stress;
 };
 RecordSizes record_sizes(int D) {
-  auto const of = [](auto r) { return RecordSizes{r.motion_size, r.stress_size, r.one}; };
+  auto const of = [](auto r) { return RecordSizes{r.motion_size, r.position, r.stress_size}; };
   return D == 1 ? of(Records<1>{}) : D == 2 ? of(Records<2>{}) : of(Records<3>{});
 }
 
@@ -19,22 +18,15 @@ RecordSizes record_sizes(int D) {
 
 void NeighbourRecords::place_records(FieldList& fields, BodyState const& state, Index slots) {
   RecordSizes const size = record_sizes(state.dimension);
-  std::ptrdiff_t const D = state.dimension;
   first_ = Memory(static_cast<std::size_t>(slots * size.motion));
   second_ = Memory(static_cast<std::size_t>(slots * size.stress));
   fields[state.X].place(first_.data(), 1, size.motion, 0, slots, &first_version_);
-  fields[state.x].place(first_.data(), 1, size.motion, D, slots, &first_version_);
-  fields[state.mu].place(first_.data(), 1, size.motion, 2 * D, slots, &first_version_);
+  fields[state.x].place(first_.data(), 1, size.motion, size.position, slots, &first_version_);
   fields[state.stress].place(second_.data(), 1, size.stress, 0, slots, &second_version_);
 }
 
-void NeighbourRecords::complete_record(int D, Index slot) {
-  RecordSizes const size = record_sizes(D);
-  first_.data()[slot * size.motion + size.one] = 1;
-}
-
 void NeighbourRecords::place_lattice(FieldList& fields, BodyState const& state, Index slots, Index guard) {
-  for (FieldRef const* field : {&state.x, &state.products, &state.stress}) fields[*field].allocate(slots, guard);
+  for (FieldRef const* field : {&state.x, &state.resultants}) fields[*field].allocate(slots, guard);
 }
 
 }  // namespace piola::nodal

@@ -4,7 +4,7 @@
 
 namespace piola::nodal {
 
-/// Storage of the data that sweeps read from neighbours: X, x, mu and the stress. Lists: one record per particle and
+/// Storage of the data that sweeps read from neighbours: X, x and the stress. Lists: one record per particle and
 /// sweep. Lattices: component after component, padded with zeros.
 class NeighbourRecords {
  public:
@@ -12,9 +12,7 @@ class NeighbourRecords {
   NeighbourRecords(NeighbourRecords const&) = delete;
   NeighbourRecords& operator=(NeighbourRecords const&) = delete;
 
-  /// Call complete_record() afterwards for all records that are read.
   void place_records(FieldList& fields, BodyState const& state, Index slots);
-  void complete_record(int D, Index slot);
   /// guard: slots that loops over a lattice may read before the first and after the last one.
   static void place_lattice(FieldList& fields, BodyState const& state, Index slots, Index guard);
   std::size_t bytes() const { return first_.bytes() + second_.bytes(); }

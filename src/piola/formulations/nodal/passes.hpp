@@ -2,70 +2,69 @@
 #pragma once
 #include "piola/exec/device_loops.hpp"
 #include "piola/exec/field_view.hpp"
+#include "piola/formulations/nodal/blocked_sweeps.hpp"
 #include "piola/formulations/nodal/lattice_sums.hpp"
 #include "piola/formulations/nodal/list_sums.hpp"
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/neighbours/record_gather.hpp"
 
 /// Sweeps and moves of the nodal formulation: operations on one particle. Theory and symbols: docs/theory/nodal.md.
-/// Pairs carry r = X_b - X_a in spacings and the weight s.
+/// Pairs of a list have r = X_b - X_a in spacings, the weight s, and gradients G.
 namespace piola::nodal::inline PIOLA_BACKEND {
 
-/// The sweep that fills a block's scratch with sums of the motion: D rows (T_i, N_i),
-///   T_a = sum_b s (x_b - x_a) (x) P(r)  (D x values),   N_a = sum_b s (x_b - x_a) (x) mu_b  (D x D).
+/// Sums of the motion of a group of lanes: per component c, F_cJ and then H_cn.
 template <int D>
-struct SumMotion {
-  using R = Records<D>;
-  static constexpr int sums = D * R::used;
-  ListSums<D> list;
+struct MotionSums {
+  static constexpr int numbers = D + Quadratic<D>::second, sums = D * numbers;
+};
 
+/// The sweep that fills a block's scratch with F_a and H_a, see MotionSums:
+///   F_a = sum_b (x_b - x_a) (x) G_ab,   H_a = T_a k_a,   T_a = sum_b s (x_b - x_a) (x) p(r).
+template <int D>
+struct SumMotion : MotionSums<D> {
+  using R = Records<D>;
+  ListSums<D> list;
+  ReferenceView k;
+
+  PIOLA_FN SumMotion(ListSums<D> const& sums_of_list, ReferenceView const& to_second)
+      : list(sums_of_list), k(to_second) {}
   PIOLA_FN void operator()(Index i, exec::Scratch const& out) const {
+    constexpr int second = Quadratic<D>::second;
     alignas(64) double rows[lane_count * D * R::width];
     Index row[lane_count];
     for (int l = 0; l < lane_count; ++l) {
       row[l] = l;
       list.of_motion(i + l, rows + l * D * R::width);
     }
+    LanesOfField const to_H = lanes_of(k, i);
     for (int c = 0; c < D; ++c) {
-      Lanes sum[R::used];
-      load_records(rows + c * R::width, D * R::width, row, sum);
-      for (int n = 0; n < R::used; ++n) store(sum[n], out.at(i, c * R::used + n));
+      Lanes T[R::used], H[second];
+      load_records(rows + c * R::width, D * R::width, row, T);
+      for (int n = 0; n < second; ++n) H[n] = T[0] * to_H[n];
+      for (int m = 1; m < R::terms; ++m)
+        for (int n = 0; n < second; ++n) H[n] = H[n] + T[m] * to_H[m * second + n];
+      for (int J = 0; J < D; ++J) store(T[R::terms + J], out.at(i, c * SumMotion::numbers + J));
+      for (int n = 0; n < second; ++n) store(H[n], out.at(i, c * SumMotion::numbers + D + n));
     }
   }
 };
 
-/// As above for a lattice, a block at a time.
+/// As above for a lattice.
 template <int D>
-struct SumLatticeMotion {
-  static constexpr int sums = D * LatticeSums<D>::used;
+struct SumLatticeMotion : MotionSums<D> {
   LatticeSums<D> lattice;
 
-  PIOLA_FN void operator()(Range b, exec::Scratch const& out) const { lattice.of_motion(b, out); }
-};
-
-/// x_c mu_J, which the first sweep over a lattice sums.
-template <int D>
-struct MultiplyByCorrections {
-  View x, mu;
-  WriteView products;
-
-  PIOLA_FN void operator()(Index i) const { multiply<Lanes>(i); }
-  template <class V>
-  PIOLA_FN void multiply(Index i) const {
-    for (int c = 0; c < D; ++c)
-      for (int J = 0; J < D; ++J) products.scalar(i, V(x.scalar<V>(i, c) * mu.scalar<V>(i, J)), c * D + J);
+  PIOLA_FN explicit SumLatticeMotion(LatticeSums<D> const& sums_of_lattice) : lattice(sums_of_lattice) {}
+  PIOLA_FN void operator()(Index i, exec::Scratch const& out) const {
+    for (int c = 0; c < D; ++c) {
+      Lanes sum[SumLatticeMotion::numbers];
+      lattice.of_motion(i, c, sum);
+      for (int n = 0; n < SumLatticeMotion::numbers; ++n) store(sum[n], out.at(i, c * SumLatticeMotion::numbers + n));
+    }
   }
 };
 
-/// x_c mu_J of ghosts, computed locally instead of received.
-template <int D>
-struct MultiplyOthers {
-  MultiplyByCorrections<D> pass;
-  Index const* slots;
-  PIOLA_FN void operator()(Index k) const { pass.template multiply<double>(slots[k]); }
-};
-
-/// m_a a_a = sum_b t_ab - sum_b t_ba,  t_ab = s (Y_a P(r_ab) + Z_a mu_b). The first sum, of the particle's own stress,
+/// m_a a_a = sum_b t_ab - sum_b t_ba,  t_ab = V_a (P_a G_ab + Q_a K_ab). The first sum, of the particle's own stress,
 /// is in `a` already.
 template <int D>
 struct SumForces {
@@ -85,7 +84,7 @@ struct SumForces {
   }
 };
 
-/// As above for a lattice, a block at a time.
+/// As above for a lattice.
 template <int D>
 struct SumLatticeForces {
   LatticeSums<D> lattice;
@@ -93,15 +92,10 @@ struct SumLatticeForces {
   View a;
   WriteView a_out;
 
-  PIOLA_FN void operator()(Range b, Index) const {
-    alignas(64) double sums[exec::block_size];
-    for (int c = 0; c < D; ++c) {
-      lattice.of_stress(b, c, sums);
-      for (Index i = b.first; i < b.last; i += lane_count) {
-        Lanes const force = a.scalar<Lanes>(i, c) - load<Lanes>(sums + (i - b.first));
-        a_out.scalar(i, Lanes(force / mass.scalar<Lanes>(i)), c);
-      }
-    }
+  PIOLA_FN void operator()(Index i) const {
+    Vec<D, Lanes> const of_neighbours = lattice.of_stress(i);
+    Lanes const per_mass = 1.0 / mass.scalar<Lanes>(i);
+    for (int c = 0; c < D; ++c) a_out.scalar(i, Lanes(per_mass * (a.scalar<Lanes>(i, c) - of_neighbours[c])), c);
   }
 };
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/scaled_body.hpp"
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <tuple>
+#include <utility>
 
 namespace piola::nodal {
 namespace {
@@ -19,6 +22,29 @@ SurfacePatch reflected(SurfacePatch patch, Signs const& sign) {
   for (std::size_t c = 0; c < 3; ++c) patch.first[c] *= sign[c];
   for (std::size_t m = 0; m < 6; ++m) patch.second[m] *= sign[moment_axis[m][0]] * sign[moment_axis[m][1]];
   return patch;
+}
+
+NormalMoments reflected(NormalMoments moments, Signs const& sign) {
+  for (std::size_t J = 0; J < 3; ++J) {
+    for (double& m : moments[J]) m *= sign[J];
+    for (std::size_t c = 0; c < 3; ++c) moments[J][1 + c] *= sign[c];
+    for (std::size_t m = 0; m < 6; ++m) moments[J][4 + m] *= sign[moment_axis[m][0]] * sign[moment_axis[m][1]];
+  }
+  return moments;
+}
+
+/// Moments about a place `by` away from the one that they are about.
+std::array<double, 10> about(std::array<double, 10> const& m, std::array<double, 3> const& by) {
+  auto moved = m;
+  for (std::size_t c = 0; c < 3; ++c) moved[1 + c] -= by[c] * m[0];
+  for (std::size_t k = 0; k < 6; ++k) {
+    auto const [c, d] = std::pair(moment_axis[k][0], moment_axis[k][1]);
+    if (c == d)
+      moved[4 + k] += by[c] * (0.5 * by[c] * m[0] - m[1 + c]);
+    else
+      moved[4 + k] += by[c] * by[d] * m[0] - by[c] * m[1 + d] - by[d] * m[1 + c];
+  }
+  return moved;
 }
 
 Signs across(std::size_t axis) {
@@ -49,11 +75,102 @@ std::vector<SurfacePatch> open_surface(std::vector<SurfacePatch> const& all, Mir
   return open;
 }
 
+/// Particles and images by their positions.
+class PlacesOfImages {
+ public:
+  explicit PlacesOfImages(Points const& X) {
+    for (std::size_t a = 0; a < X.size(); ++a) at_.emplace(key(X[a]), static_cast<Index>(a));
+  }
+  /// -1: none.
+  Index operator()(std::array<double, 3> const& X) const {
+    auto const found = at_.find(key(X));
+    return found == at_.end() ? -1 : found->second;
+  }
+
+ private:
+  /// Positions within a thousandth of a spacing are equal, unless a border of the grid separates them; the grid has an
+  /// odd offset, so that none lies on a lattice.
+  static std::array<long, 3> key(std::array<double, 3> const& X) {
+    std::array<long, 3> at{};
+    for (std::size_t c = 0; c < 3; ++c) at[c] = std::lround(1024 * X[c] + 0.2718);
+    return at;
+  }
+  std::map<std::array<long, 3>, Index> at_;
+};
+
+/// Facets of the whole body: those across planes, and all of them behind the planes.
+class FacetsBehindPlanes {
+ public:
+  FacetsBehindPlanes(ScaledBody& body, MirrorImages const& images)
+      : body_(body), images_(images), place_of_(body.X), facets_(std::move(body.facets)) {}
+
+  /// `surface`: of the body itself, with the patches on planes.
+  void operator()(std::vector<SurfacePatch> const& surface) {
+    for (auto const& patch : surface) {
+      auto const axis = static_cast<std::size_t>(patch.axis);
+      if (patch.outermost && images_.has_plane(axis, patch.upper) && !images_.on_plane(patch.particle, axis))
+        cross(patch, axis);
+    }
+    body_.facets.clear();
+    for (CellFacet const& facet : facets_) add(facet.a, facet.b, facet.moments);
+    for (auto const& map : images_.maps())
+      for (CellFacet const& facet : facets_) {
+        Index const a = image(facet.a, map), b = image(facet.b, map);
+        if (a >= 0 && b >= 0) add(a, b, reflected(facet.moments, map.sign));
+      }
+  }
+
+ private:
+  Index image(Index a, MirrorImages::Map const& map) const {
+    auto X = body_.X[static_cast<std::size_t>(a)];
+    for (std::size_t c = 0; c < 3; ++c) X[c] = map.sign[c] * X[c] + map.shift[c] / body_.h[c];
+    return place_of_(X);
+  }
+  /// The patch of a particle on a plane is its facet with its image behind this plane: half of it, because the mirror
+  /// adds the same facet once more.
+  void cross(SurfacePatch const& patch, std::size_t axis) {
+    auto const& X = body_.X[static_cast<std::size_t>(patch.particle)];
+    double const height = images_.plane(axis, patch.upper) / body_.h[axis] - X[axis];
+    auto behind = X;
+    behind[axis] += 2 * height;
+    Index const b = place_of_(behind);
+    if (b < 0) return;
+    std::array<double, 10> moments{};
+    double const sign = patch.upper ? 0.5 : -0.5;
+    moments[0] = sign * patch.area;
+    for (std::size_t c = 0; c < 3; ++c) moments[1 + c] = sign * patch.first[c];
+    for (std::size_t m = 0; m < 6; ++m) moments[4 + m] = sign * patch.second[m];
+    std::array<double, 3> middle{};
+    middle[axis] = height;
+    CellFacet facet{patch.particle, b, {}};
+    facet.moments[axis] = about(moments, middle);
+    facets_.push_back(facet);
+  }
+  /// Pairs of particles on a plane get the other halves of their facets.
+  void add(Index a, Index b, NormalMoments moments) {
+    if (a > b)
+      for (auto& of_axis : moments)
+        for (double& m : of_axis) m = -m;
+    auto const [at, is_new] = known_.try_emplace(std::minmax(a, b), body_.facets.size());
+    if (is_new) body_.facets.push_back({std::min(a, b), std::max(a, b), {}});
+    auto& sum = body_.facets[at->second].moments;
+    for (std::size_t J = 0; J < 3; ++J)
+      for (std::size_t m = 0; m < 10; ++m) sum[J][m] += moments[J][m];
+  }
+
+  ScaledBody& body_;
+  MirrorImages const& images_;
+  PlacesOfImages place_of_;
+  std::vector<CellFacet> facets_;  ///< of the body itself
+  std::map<std::pair<Index, Index>, std::size_t> known_;
+};
+
 void continue_behind_planes(ScaledBody& r, MirrorImages const& images) {
   for (std::size_t i = 0; i < r.particles; ++i)
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (images.on_plane(static_cast<Index>(i), axis)) r.cells[i] = completed(r.cells[i], axis);
-  r.patches = open_surface(r.patches, images);
+  auto const surface = std::move(r.patches);
+  r.patches = open_surface(surface, images);
   std::vector<std::vector<std::size_t>> patches_of(r.particles);
   for (std::size_t k = 0; k < r.patches.size(); ++k)
     patches_of[static_cast<std::size_t>(r.patches[k].particle)].push_back(k);
@@ -67,6 +184,7 @@ void continue_behind_planes(ScaledBody& r, MirrorImages const& images) {
       r.patches.back().particle = static_cast<Index>(r.particles) + k;
     }
   }
+  FacetsBehindPlanes{r, images}(surface);
 }
 
 }  // namespace
@@ -84,7 +202,7 @@ ScaledBody scaled_body(SetUp const& from) {
     r.h[c] = body.spacing[c];
     r.h_volume *= body.spacing[c];
   }
-  BodyCells measured = measure_cells(set, body);
+  BodyCells measured = measure_cells(set, body, CellParts::facets_too);
   std::vector<Index> slot_of(measured.cell.size());
   r.X.reserve(measured.cell.size());
   r.cells.reserve(measured.cell.size());
@@ -108,6 +226,18 @@ ScaledBody scaled_body(SetUp const& from) {
     patch.area /= area;
     for (std::size_t c = 0; c < 3; ++c) patch.first[c] /= area * r.h[c];
     for (std::size_t m = 0; m < 6; ++m) patch.second[m] /= area * r.h[moment_axis[m][0]] * r.h[moment_axis[m][1]];
+  }
+  r.facets = std::move(measured.facet);
+  for (auto& facet : r.facets) {
+    Index const a = slot_of[static_cast<std::size_t>(facet.a)], b = slot_of[static_cast<std::size_t>(facet.b)];
+    facet.a = std::min(a, b);
+    facet.b = std::max(a, b);
+    for (std::size_t J = 0; J < 3; ++J) {
+      double const area = (a < b ? 1 : -1) * r.h_volume / r.h[J];
+      for (double& m : facet.moments[J]) m /= area;
+      for (std::size_t c = 0; c < 3; ++c) facet.moments[J][1 + c] /= r.h[c];
+      for (std::size_t m = 0; m < 6; ++m) facet.moments[J][4 + m] /= r.h[moment_axis[m][0]] * r.h[moment_axis[m][1]];
+    }
   }
   r.particles = r.X.size();
   if (from.images != nullptr) continue_behind_planes(r, *from.images);

@@ -9,7 +9,6 @@
 #include "piola/formulations/nodal/lattice_layout.hpp"
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/mechanics/surface_constraint.hpp"
-#include "piola/neighbours/pair_table_views.hpp"
 #include "piola/particles/ordering.hpp"
 #include <memory>
 #include <optional>
@@ -19,9 +18,9 @@ namespace piola::nodal {
 
 /// Cost of setting up a body [s].
 struct SetUpCosts {
-  double cells = 0;                   ///< volumes, moments and surface
-  double fits = 0;                    ///< neighbours and quadratic fits
-  double integration_correction = 0;  ///< the divergence theorem
+  double cells = 0;      ///< volumes, moments, facets and surface
+  double fits = 0;       ///< neighbours and quadratic fits
+  double gradients = 0;  ///< fluxes through facets
   double masses = 0;
   double tables = 0;  ///< data for the loops
 };
@@ -35,7 +34,7 @@ struct SetUp {
   std::vector<Support> const& supports;
   std::vector<double> const& rho0;          ///< of the main material and of the parts [kg/m^3]
   double least_mass;                        ///< of a particle over that of its cell
-  Backend const& backend;                   ///< instruction set of the loops that solve for the divergence theorem
+  Backend const& backend;                   ///< of the loops that use the reference data
   MirrorImages const* images = nullptr;     ///< the whole body behind its mirror planes; nullptr: it has none
   std::optional<Range> own = std::nullopt;  ///< local slots if the body is distributed; empty: all
 
@@ -51,31 +50,45 @@ struct FacePart {
   std::array<double, 3> normal{};  ///< outward unit vector
 };
 
-/// The undeformed body for the loops: values per slot, in the order of Fields. On ranks: of local slots, and V, X and
-/// mu of ghosts. Theory: docs/theory/nodal.md, section 3.
+/// Gradients of a body that fills a lattice, one set for each distinct group of lanes, see LatticeTable.
+struct LatticeGradients {
+  std::vector<std::ptrdiff_t> offset;
+  LazyZeroArray<std::int32_t> group;
+  std::vector<double> motion, force;
+  Index guard = 0;  ///< slots before the first and after the last one that loops may read
+
+  bool empty() const { return offset.empty(); }
+  LatticeTable table() const {
+    if (empty()) return {};
+    return {static_cast<int>(offset.size()), offset.data(), group.data(), motion.data(), force.data()};
+  }
+  std::size_t bytes() const { return 8 * (offset.size() + motion.size() + force.size()) + 4 * group.size(); }
+};
+
+/// The undeformed body for the loops: values per slot, in the order of Fields. On ranks: of local slots, and V and X of
+/// ghosts. Theory: docs/theory/nodal.md, section 3.
 struct Reference {
-  LazyZeroArray<double> V, mass, L, g, k, own, mu;
-  /// On a lattice: index of the stored group of k per group of lanes, if groups with identical geometry share it.
-  LazyZeroArray<std::int32_t> group_of_k;
+  LazyZeroArray<double> V, mass, L, k, own;
   LazyZeroArray<double> X;                     ///< in spacings, D per slot
   LazyZeroArray<double> centroid;              ///< of the cell relative to the particle, D per slot [m]
   std::vector<LazyZeroArray<FacePart>> parts;  ///< per load on a face, per slot; empty for other loads
   std::vector<ConstrainedFacet> held;          ///< parts of the surface that supports hold
-  LazyZeroArray<std::int64_t> begin;           ///< lists, see ListTable
+  LazyZeroArray<std::int64_t> begin;           ///< lists, see GradientList; of a lattice without weights and gradients
   std::vector<Index> neighbour;
-  std::vector<double> weight;
+  std::vector<double> weight, gradient, reaction;
+  LatticeGradients lattice;  ///< replaces the gradients of lists if particles fill a lattice
   // With mirror planes lists refer to images by the slots after those of the body; V and mass are those of the whole
   // body.
-  std::vector<Index> images;             ///< images that are neighbours, numbered as in SetUp::images
-  std::vector<Index> source_of_image;    ///< slots
-  LazyZeroArray<double> own_fractions;   ///< of particle volumes, in the body itself; empty: no planes
-  std::optional<LatticeLayout> lattice;  ///< replaces the lists if particles fill a lattice
-  std::unique_ptr<HaloPlan> halo;        ///< of ghosts, without fields; nullptr on one rank
-  int integration_iterations = 0;
+  std::vector<Index> images;            ///< images that are neighbours, numbered as in SetUp::images
+  std::vector<Index> source_of_image;   ///< slots
+  LazyZeroArray<double> own_fractions;  ///< of particle volumes, in the body itself; empty: no planes
+  std::unique_ptr<HaloPlan> halo;       ///< of ghosts, without fields; nullptr on one rank
   std::vector<SetUpCheck> checks;
   SetUpCosts costs;
 
-  ListTable list() const { return {begin.data(), nullptr, neighbour.data(), weight.data()}; }
+  GradientList list() const {
+    return {begin.data(), neighbour.data(), weight.data(), gradient.data(), reaction.data()};
+  }
   /// Slot of a neighbour, or of the source of an image.
   Index owner(Index neighbour_slot) const {
     auto const slots = static_cast<Index>(V.size());
@@ -91,8 +104,8 @@ struct Reference {
   }
 };
 
-/// Throws InputError: a particle without a cell, too few particles across, gradients that violate the divergence
-/// theorem. Collective on a distributed body; all ranks throw.
+/// Throws InputError: a particle without a cell, too few particles across, gradients that miss the divergence theorem.
+/// Collective on a distributed body; all ranks throw.
 Reference make_reference(SetUp const& from);
 
 }  // namespace piola::nodal

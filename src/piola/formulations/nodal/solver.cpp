@@ -176,12 +176,12 @@ RunStatistics Solver::statistics() const {
     auto const& checks = body->reference().checks;
     all.set_up_checks.insert(all.set_up_checks.end(), checks.begin(), checks.end());
     auto const& c = body->reference().costs;
-    sum = {sum.cells + c.cells, sum.fits + c.fits, sum.integration_correction + c.integration_correction,
-           sum.masses + c.masses, sum.tables + c.tables};
+    sum = {sum.cells + c.cells, sum.fits + c.fits, sum.gradients + c.gradients, sum.masses + c.masses,
+           sum.tables + c.tables};
   }
   all.seconds = {{"set_up_cells", sum.cells},
                  {"set_up_fits", sum.fits},
-                 {"set_up_closure", sum.integration_correction},
+                 {"set_up_gradients", sum.gradients},
                  {"set_up_masses", sum.masses},
                  {"set_up_tables", sum.tables}};
   return all;

@@ -5,7 +5,6 @@
 #include "piola/formulations/nodal/lattice.hpp"
 #include "piola/materials/registry.hpp"
 #include "piola/mechanics/prescribed_data.hpp"
-#include "piola/neighbours/pair_table_views.hpp"
 
 namespace piola {
 class SurfaceConstraint;
@@ -46,6 +45,15 @@ struct MirroredParticle {
 
 struct BodyState;
 
+/// Neighbours of a cloud, a list per particle: the weight s, and the gradients of a pair in both directions.
+struct GradientList {
+  std::int64_t const* begin = nullptr;  ///< per particle, one more at the end
+  Index const* neighbour = nullptr;
+  double const* s = nullptr;
+  double const* gradient = nullptr;  ///< G_ab [1/m], D per pair, and one more value at the end
+  double const* reaction = nullptr;  ///< V_b G_ba [m^(D-1)], the same
+};
+
 /// Supports, loads and mirror planes of a body.
 struct BoundaryState {
   PrescribedDirection* held = nullptr;
@@ -69,11 +77,11 @@ struct BodyState : Fields {
   MaterialRange const* materials = nullptr;  ///< in the order of slots; together all particles
   Index material_count = 0;
   Index particles = 0;  ///< the slots after them are empty
-  ListTable list;
+  GradientList list;
   LatticeTable lattice;  ///< replaces the lists if particles fill a lattice
 
   /// Values of a particle that its neighbours read, by the sweep that reads them: for the sums of the motion, records
-  /// of X, x and mu, or `products` on a lattice; for the sums of forces, `stress`.
+  /// of X and x, or x on a lattice; for the sums of forces, `stress`, or `resultants` on a lattice.
   FieldRef motion_for_neighbours, stress_for_neighbours;
 
   BoundaryState boundary;
@@ -83,13 +91,6 @@ struct BodyState : Fields {
   HaloPlan* halo = nullptr;       ///< nullptr if not distributed
   Index const* ghosts = nullptr;  ///< ghost slots
   Index ghost_count = 0;
-};
-
-/// Additional fields of the system of the divergence theorem at set-up. Per particle: the inverse of its normal
-/// equations (upper triangle, row by row); s V of itself, and its sum with s V of all neighbours; the quadratic found
-/// last (values x D).
-struct ProjectionFields {
-  FieldRef inverse, weights, coefficients;
 };
 
 /// The loops of one instruction set. Every entry accepts bodies of 1, 2 or 3 dimensions.
@@ -102,8 +103,6 @@ struct Backend {
   double (*largest_change)(BodyState& body);      ///< of a strain since the last measurement of the step
   void (*keep)(BodyState& body);                  ///< saves x, v, a and the least J at the start of a step
   void (*restore)(BodyState& body);               ///< restores them
-  /// a = the matrix of the divergence theorem times x; masses are one.
-  void (*project)(BodyState& body, ProjectionFields const& fields);
   /// Subtracts the gradient of positions at the particles from `offset`. `centroid`: of cells, relative to the
   /// particles [m].
   void (*subtract_gradients)(BodyState& body, FieldRef const& centroid);

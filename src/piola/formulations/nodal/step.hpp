@@ -4,7 +4,6 @@
 #include "piola/formulations/nodal/boundary_passes.hpp"
 #include "piola/formulations/nodal/mirror_passes.hpp"
 #include "piola/formulations/nodal/mixed_material_lanes.hpp"
-#include "piola/formulations/nodal/projection.hpp"
 #include "piola/formulations/nodal/stress_points.hpp"
 
 /// One step of the nodal formulation: kick, drift, forces, kick. Theory: docs/theory/nodal.md.
@@ -38,20 +37,9 @@ class Step {
     exec::for_each_item(b_.boundary.mirrored_count, StayOnPlanes<D>{b_.boundary.mirrored, write(b_.a)});
   }
 
-  /// a = M x with the matrix of the divergence theorem.
-  void project(ProjectionFields const& f) {
-    ProjectQuadratic<D> const pass{
-        read_reference(f.inverse),       read_reference(b_.V), read(f.weights), read(b_.x), write(f.coefficients),
-        write(b_.stress_for_neighbours), write(b_.a)};
-    halo_.refresh(b_.x, b_.motion_for_neighbours);
-    fused(b_.slots, exec::erased(pass));
-    sum_forces();
-  }
-
   void subtract_gradients(FieldRef const& centroid) {
-    prepare_motion();
-    SubtractGradients<D> const pass{read_reference(b_.g), read_reference(b_.k), read(centroid), read(b_.offset),
-                                    write(b_.offset)};
+    halo_.refresh(b_.x);
+    SubtractGradients<D> const pass{read(centroid), read(b_.offset), write(b_.offset)};
     fused(b_.slots, exec::erased(pass));
   }
 
@@ -72,36 +60,28 @@ class Step {
   }
 
  private:
-  bool on_lattice() const { return b_.lattice.present != nullptr; }
+  bool on_lattice() const { return b_.lattice.group != nullptr; }
   ListSums<D> of_motion() const { return {b_.list, read_neighbours(b_.motion_for_neighbours).data, nullptr}; }
   ListSums<D> of_stress() const {
     return {b_.list, read_neighbours(b_.motion_for_neighbours).data, read_neighbours(b_.stress_for_neighbours).data};
-  }
-  LatticeSums<D> of_lattice() const {
-    bool const corrected = b_.mu.data != nullptr;
-    return {b_.lattice,
-            b_.all_slots,
-            read_neighbours(b_.x),
-            read(b_.motion_for_neighbours),
-            read_reference(b_.own).stored,
-            read(b_.mu),
-            read(b_.stress_for_neighbours),
-            corrected};
   }
 
   /// The first sweep, block by block, with the pass that uses its sums.
   void fused(Range slots, exec::PointPass const& then) {
     if (on_lattice())
-      exec::for_each_block(slots, FusedBlock<SumLatticeMotion<D>>{{of_lattice()}, then});
+      exec::for_each_then(
+          slots, SumLatticeMotion<D>(LatticeSums<D>{b_.lattice, read_neighbours(b_.motion_for_neighbours), {}}), then);
     else
-      exec::for_each_then(slots, SumMotion<D>{of_motion()}, then);
+      exec::for_each_then(slots, SumMotion<D>(of_motion(), read_reference(b_.k)), then);
   }
 
   void sum_forces() {
     halo_.refresh(b_.stress_for_neighbours);
     if (on_lattice())
-      exec::for_each_block(b_.slots,
-                           SumLatticeForces<D>{of_lattice(), read_reference(b_.mass), read(b_.a), write(b_.a)});
+      exec::for_each(b_.slots, SumLatticeForces<D>{{b_.lattice, {}, read_neighbours(b_.stress_for_neighbours)},
+                                                   read_reference(b_.mass),
+                                                   read(b_.a),
+                                                   write(b_.a)});
     else
       exec::for_each(b_.slots, SumForces<D>{of_stress(), read_reference(b_.mass), read(b_.a), write(b_.a)});
   }
@@ -116,10 +96,9 @@ class Step {
   }
 
   void turn_loads(bool at_end) {
-    halo_.refresh(b_.x, b_.motion_for_neighbours);
-    exec::for_each_item(b_.boundary.loaded_count,
-                        TurnLoads<D>{at_end, b_.boundary.loaded, b_.boundary.loaded_centroid, of_motion(),
-                                     read_reference(b_.g), read_reference(b_.k), read(b_.offset)});
+    halo_.refresh(b_.x);
+    exec::for_each_item(b_.boundary.loaded_count, TurnLoads<D>{at_end, b_.boundary.loaded, b_.boundary.loaded_centroid,
+                                                               of_motion(), read_reference(b_.k), read(b_.offset)});
   }
 
   void drive(double dt) {
@@ -133,20 +112,9 @@ class Step {
     if (b_.boundary.surface != nullptr) b_.boundary.kick_surface(*b_.boundary.surface, b_, false, dt);
   }
 
-  /// Completes the data that the first sweep reads.
-  void prepare_motion() {
-    halo_.refresh(b_.x);
-    if (on_lattice()) {
-      MultiplyByCorrections<D> const multiply{read(b_.x), read(b_.mu), write(b_.motion_for_neighbours)};
-      exec::for_each(b_.slots, multiply);
-      exec::for_each_item(b_.ghost_count, MultiplyOthers<D>{multiply, b_.ghosts});
-    }
-    halo_.refresh(b_.motion_for_neighbours);
-  }
-
   template <bool Observed>
   void sweep(double dt) {
-    prepare_motion();
+    halo_.refresh(b_.x);
     for (Index k = 0; k < b_.material_count; ++k) update_stress<Observed>(b_.materials[k], dt);
   }
 
@@ -162,9 +130,9 @@ class Step {
       using Law = std::decay_t<decltype(law)>;
       UpdateStress<D, Law, Observed> const update{law,
                                                   constants,
+                                                  b_.particles,
                                                   read_reference(b_.V),
                                                   read_reference(b_.L),
-                                                  read_reference(b_.g),
                                                   read_reference(b_.k),
                                                   read_reference(b_.own),
                                                   read(b_.offset),

@@ -100,17 +100,16 @@ struct CellEnergy {
   }
 };
 
-/// First sums to stress resultants: F_a, H_a, the points, P_a and Q_a, and
-///   Y_a = V_a (P_a g_a^T + Q_a k_a^T),  Z_a = V_a P_a,
+/// First sums to stress resultants: F_a, H_a, the points, P_a and Q_a,
 /// which the second sweep reads at neighbours, and the particle's own part of its force,
-/// Y_a sum_b s P(r) + Z_a sum_b s mu_b. Records the first particle with a point of J <= 0 or not a number.
+/// V_a (P_a sum_b G_ab + Q_a sum_b K_ab). Records the first particle with a point of J <= 0 or not a number.
 template <int D, class Law, bool Observed>
 struct UpdateStress {
-  static constexpr int values = Quadratic<D>::values, terms = Quadratic<D>::terms, second = Quadratic<D>::second,
-                       points = Quadratic<D>::points, used = Records<D>::used, width = Records<D>::width;
+  static constexpr int second = Quadratic<D>::second, points = Quadratic<D>::points, numbers = MotionSums<D>::numbers;
   Law law;
   Constants constants;
-  ReferenceView V, L, g, k, own;
+  Index particles;  ///< slots after them are empty
+  ReferenceView V, L, k, own;
   View offset, C_measured;
   WriteView C_marked;
   bool marks;
@@ -162,23 +161,14 @@ struct UpdateStress {
   }
   PIOLA_FN CellPoints<D> gradients(Index i, exec::Scratch const& in) const {
     CellPoints<D> r;
-    LanesOfField const to_F = lanes_of(g, i), to_H = lanes_of(k, i), spread = lanes_of(L, i);
+    LanesOfField const spread = lanes_of(L, i);
     for (int c = 0; c < D; ++c) {
-      Lanes T[values], H[second];
-      for (int m = 0; m < values; ++m) T[m] = load<Lanes>(in.at(i, c * used + m));
-      for (int J = 0; J < D; ++J) {
-        Lanes sum = load<Lanes>(in.at(i, c * used + values + J));
-        for (int m = 0; m < values; ++m) sum = sum + T[m] * to_F[m * D + J];
-        r.F(c, J) = sum;
-      }
-      for (int n = 0; n < second; ++n) {
-        H[n] = T[1] * to_H[n];
-        for (int m = 1; m < terms; ++m) H[n] = H[n] + T[1 + m] * to_H[m * second + n];
-      }
+      for (int J = 0; J < D; ++J) r.F(c, J) = load<Lanes>(in.at(i, c * numbers + J));
       for (int m = 0; m < D; ++m)
         for (int J = 0; J < D; ++J) {
           Lanes sum = Lanes(0.0);
-          for (int K = m; K < D; ++K) sum = sum + H[Quadratic<D>::at(J, K)] * spread[K * D + m];
+          for (int K = m; K < D; ++K)
+            sum = sum + load<Lanes>(in.at(i, c * numbers + D + Quadratic<D>::at(J, K))) * spread[K * D + m];
           r.along[m](c, J) = sum;
         }
     }
@@ -186,11 +176,11 @@ struct UpdateStress {
   }
 
   PIOLA_FN void put_stress(Index i, CellEnergy<Law, points, Observed> const& energy) const {
+    LanesOfField const spread = lanes_of(L, i), sums = lanes_of(own, i);
     Lanes const volume = V.scalar<Lanes>(i);
-    LanesOfField const to_F = lanes_of(g, i), to_H = lanes_of(k, i), spread = lanes_of(L, i), sums = lanes_of(own, i);
     Mat<D, Lanes> mean, along[D];
     for (int q = 0; q < points; ++q) {
-      Mat<D, Lanes> const P = (volume * (1.0 / points)) * restrict_to<D>(energy.P[q]);
+      Mat<D, Lanes> const P = (1.0 / points) * restrict_to<D>(energy.P[q]);
       mean = q == 0 ? P : mean + P;
       for (int m = 0; m < D; ++m) {
         if (q == 0)
@@ -200,7 +190,8 @@ struct UpdateStress {
       }
     }
     for (int c = 0; c < D; ++c) {
-      Lanes Q[second];
+      Lanes row[numbers], own_force = Lanes(0.0);  // P, Q
+      for (int J = 0; J < D; ++J) row[J] = mean(c, J);
       for (int J = 0; J < D; ++J)
         for (int K = J; K < D; ++K) {
           Lanes sum = Lanes(0.0);
@@ -208,19 +199,35 @@ struct UpdateStress {
             sum = sum + along[m](c, J) * spread[K * D + m];
             if (J != K) sum = sum + along[m](c, K) * spread[J * D + m];
           }
-          Q[Quadratic<D>::at(J, K)] = sum;
+          row[D + Quadratic<D>::at(J, K)] = sum;
         }
-      Lanes row[width], own_force = Lanes(0.0);
-      for (int m = 0; m < values; ++m) {
-        row[m] = mean(c, 0) * to_F[m * D];
-        for (int J = 1; J < D; ++J) row[m] = row[m] + mean(c, J) * to_F[m * D + J];
-        for (int n = 0; n < second && m > 0; ++n) row[m] = row[m] + Q[n] * to_H[(m - 1) * second + n];
-      }
-      for (int J = 0; J < D; ++J) row[values + J] = mean(c, J);
-      for (int m = 0; m < used; ++m) own_force = own_force + row[m] * sums[m];
-      a.scalar(i, own_force, c);
-      put_row<D>(stress, i, c, row);
+      if (i + lane_count > particles) clear_empty(i, row);
+      for (int n = 0; n < numbers; ++n) own_force = own_force + row[n] * sums[n];
+      a.scalar(i, Lanes(volume * own_force), c);
+      put_row(i, c, row);
     }
+  }
+  /// What neighbours on a lattice read must be finite, also in slots without a particle.
+  PIOLA_FN void clear_empty(Index i, Lanes (&row)[numbers]) const {
+    double here[lane_count];
+    for (int l = 0; l < lane_count; ++l) here[l] = i + l < particles ? 1 : 0;
+    for (Lanes& number : row) number = select(load<Lanes>(here) > 0.5, number, Lanes(0.0));
+  }
+  /// Component c of (P, Q) for lattices; in records of lists (Q k^T, P).
+  PIOLA_FN void put_row(Index i, int c, Lanes const (&row)[numbers]) const {
+    if (stress.particle_stride == 1) {
+      for (int n = 0; n < numbers; ++n) stress.scalar(i, row[n], c * numbers + n);
+      return;
+    }
+    using R = Records<D>;
+    LanesOfField const to_H = lanes_of(k, i);
+    Lanes record[R::used];
+    for (int m = 0; m < R::terms; ++m) {
+      record[m] = row[D] * to_H[m * second];
+      for (int n = 1; n < second; ++n) record[m] = record[m] + row[D + n] * to_H[m * second + n];
+    }
+    for (int J = 0; J < D; ++J) record[R::terms + J] = row[J];
+    store_records(stress.data + i * stress.particle_stride + c * R::used, stress.particle_stride, record);
   }
 
   PIOLA_FN void put_output_fields(Index i, CellPoints<D> const& at,
@@ -246,26 +253,19 @@ struct UpdateStress {
 /// offset_a -= F(X_a), the gradient of positions at the particle, F_a - H_a.c_a with the centroid c_a of the cell.
 template <int D>
 struct SubtractGradients {
-  static constexpr int values = Quadratic<D>::values, second = Quadratic<D>::second, used = Records<D>::used;
-  ReferenceView g, k;
+  static constexpr int numbers = MotionSums<D>::numbers;
   View centroid, offset;
   WriteView offset_out;
 
   PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
-    LanesOfField const to_F = lanes_of(g, i), to_H = lanes_of(k, i);
     Vec<D, Lanes> const far = centroid.vector<D, Lanes>(i);
     Mat<D, Lanes> r = offset.matrix<D, Lanes>(i);
-    for (int c = 0; c < D; ++c) {
-      auto const T = [&](int m) { return load<Lanes>(in.at(i, c * used + m)); };
+    for (int c = 0; c < D; ++c)
       for (int J = 0; J < D; ++J) {
-        r(c, J) = r(c, J) - T(values + J) - T(0) * to_F[J];
-        for (int m = 1; m < values; ++m) {
-          Lanes along = to_F[m * D + J];
-          for (int K = 0; K < D; ++K) along = along - to_H[(m - 1) * second + Quadratic<D>::at(J, K)] * far[K];
-          r(c, J) = r(c, J) - T(m) * along;
-        }
+        r(c, J) = r(c, J) - load<Lanes>(in.at(i, c * numbers + J));
+        for (int K = 0; K < D; ++K)
+          r(c, J) = r(c, J) + load<Lanes>(in.at(i, c * numbers + D + Quadratic<D>::at(J, K))) * far[K];
       }
-    }
     offset_out.matrix<D>(i, r);
   }
 };
