@@ -80,7 +80,7 @@ struct Fields {
   ListedRef history{owner, "SolidHistory", "1", solid_values(dimension), Role::evolved, has.solids};
   ListedRef viscous{owner, "ViscousHistory", "1", viscous_values(dimension), Role::evolved, has.viscosity};
 
-  // Derived, one of them: of lists rows (Q_i k^T, P_i); of lattices rows (P_i, Q_i).
+  // Derived, one of them: of lists rows (V Q_i k^T, P_i); of lattices rows (P_i, Q_i).
   ListedRef stress{owner, "StressOfSums", "Pa", dimension*(terms(dimension) + dimension), Role::derived, in_records};
   ListedRef resultants{owner,         "StressResultants", "Pa", dimension*(dimension + second(dimension)),
                        Role::derived, in_records};

@@ -20,7 +20,7 @@ struct Records {
   static constexpr int width = (used + 7) / 8 * 8;  ///< of a row of sums, in doubles
   // Motion: X in spacings, then x from `position` on. Three values of each, and one more, are read at once.
   static constexpr int position = 4, motion_size = 8;
-  static constexpr int stress_size = (D * used + 1 + 7) / 8 * 8;  ///< D rows (Q_i k^T, P_i), and one more value
+  static constexpr int stress_size = (D * used + 1 + 7) / 8 * 8;  ///< D rows (V Q_i k^T, P_i), and one more value
 };
 
 #if PIOLA_HAS_PACKS

@@ -12,7 +12,7 @@ namespace piola::nodal {
 /// particles are zero.
 struct MassInput {
   double least;
-  std::optional<LatticeShape> const& lattice;
+  std::optional<LatticeShape> lattice;
   bool match;
   std::optional<DistributedSlots> shared = std::nullopt;
 };

@@ -6,6 +6,7 @@
 #include "piola/formulations/nodal/facet_fluxes.hpp"
 #include "piola/formulations/nodal/gradient_check.hpp"
 #include "piola/formulations/nodal/gradient_tables.hpp"
+#include "piola/formulations/nodal/lattice_masses.hpp"
 #include "piola/formulations/nodal/load_integrals.hpp"
 #include "piola/formulations/nodal/masses.hpp"
 #include "piola/formulations/nodal/scaled_body.hpp"
@@ -78,6 +79,8 @@ template <int D>
 LazyZeroArray<double> masses(SetUp const& from, ScaledBody const& scaled, std::optional<LatticeShape> const& shape,
                              MassOptions const& options) {
   auto const heavy = heavy_cells(from, scaled.cells);
+  if (heavy.empty() && has_lattice_cells(from.body))
+    if (auto mass = lattice_masses(scaled, D, from.least_mass)) return std::move(*mass);
   return exact_masses<D>(scaled.X, heavy.empty() ? scaled.cells : heavy,
                          {from.least_mass, shape, !has_lattice_cells(from.body) && !options.endless, options.shared});
 }

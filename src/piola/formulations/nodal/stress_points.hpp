@@ -213,7 +213,7 @@ struct UpdateStress {
     for (int l = 0; l < lane_count; ++l) here[l] = i + l < particles ? 1 : 0;
     for (Lanes& number : row) number = select(load<Lanes>(here) > 0.5, number, Lanes(0.0));
   }
-  /// Component c of (P, Q) for lattices; in records of lists (Q k^T, P).
+  /// Component c of (P, Q) for lattices; in records of lists (V Q k^T, P), because weights s do not hold the volume.
   PIOLA_FN void put_row(Index i, int c, Lanes const (&row)[numbers]) const {
     if (stress.particle_stride == 1) {
       for (int n = 0; n < numbers; ++n) stress.scalar(i, row[n], c * numbers + n);
@@ -221,10 +221,12 @@ struct UpdateStress {
     }
     using R = Records<D>;
     LanesOfField const to_H = lanes_of(k, i);
+    Lanes const volume = V.scalar<Lanes>(i);
     Lanes record[R::used];
     for (int m = 0; m < R::terms; ++m) {
-      record[m] = row[D] * to_H[m * second];
-      for (int n = 1; n < second; ++n) record[m] = record[m] + row[D + n] * to_H[m * second + n];
+      Lanes sum = row[D] * to_H[m * second];
+      for (int n = 1; n < second; ++n) sum = sum + row[D + n] * to_H[m * second + n];
+      record[m] = volume * sum;
     }
     for (int J = 0; J < D; ++J) record[R::terms + J] = row[J];
     store_records(stress.data + i * stress.particle_stride + c * R::used, stress.particle_stride, record);
