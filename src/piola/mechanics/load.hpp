@@ -19,10 +19,12 @@ struct Load {
   /// Outward unit normal of the loaded face in the reference configuration, if the load is a traction.
   std::optional<std::array<double, 3>> normal = {};
   std::vector<std::array<double, 3>> normals = {};  ///< as `normal`, per particle, for curved faces
-  bool pressure = false;                            ///< the value's first component is a pressure [Pa] on that face
-  bool follows = false;                             ///< follower load: a pressure on the deformed face, along its
-                                                    ///< current normal
-  std::string name = {};                            ///< empty: its force is not recorded
+  int patch = -1;                 ///< number of the loaded patch of the surface, see Outline::patches; -1: none
+  bool whole_patch = false;       ///< the load acts on all of it
+  bool pressure = false;          ///< the value's first component is a pressure [Pa] on that face
+  bool follows = false;           ///< follower load: a pressure on the deformed face, along its
+                                  ///< current normal
+  std::string name = {};          ///< empty: its force is not recorded
   std::array<double, 3> about{};  ///< reference point of its moment: the mean position of its particles at the start
                                   ///< [m]
 

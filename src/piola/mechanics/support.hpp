@@ -31,6 +31,8 @@ struct Support {
                                   ///< [m]
   /// Outward normals of the face at the particles, if the face itself is held instead of the particles.
   std::vector<std::array<double, 3>> normals = {};
+  int patch = -1;            ///< number of that face, see Outline::patches; -1: none
+  bool whole_patch = false;  ///< all of it is held
 
   bool on_surface() const { return !normals.empty(); }
 };

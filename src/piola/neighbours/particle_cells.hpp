@@ -16,20 +16,21 @@ struct CellMoments {
   std::array<double, 6> spread{};    ///< central second moments over the volume [m2]: XX YY ZZ YZ XZ XY
 };
 
-/// Sum of a particle's surface patches that face one direction of an axis.
-struct SurfacePatch {
-  Index particle = 0;              ///< counted from the body's first
-  int axis = 0;                    ///< of the outward normal
-  bool upper = false;              ///< the normal points to larger coordinates
-  bool outermost = false;          ///< on the box around the body: part of one of its flat faces
-  double area = 0;                 ///< [m^(D-1)]
-  std::array<double, 3> first{};   ///< integral of r, the place relative to the particle [m^D]
-  std::array<double, 6> second{};  ///< of r1^2/2, r2^2/2, r3^2/2, r2 r3, r1 r3, r1 r2 [m^(D+1)]
-};
-
 /// Integrals of N_J (1, r, r1^2/2, r2^2/2, r3^2/2, r2 r3, r1 r3, r1 r2) dA over a piece of a cell's surface with the
 /// normal N, for J = 1, 2, 3 [m^(D-1) and more].
 using NormalMoments = std::array<std::array<double, 10>, 3>;
+
+/// The part of a cell's surface on one patch of the body's surface; or, where patches are not known, the part that
+/// faces one direction of an axis.
+struct SurfacePatch {
+  Index particle = 0;               ///< counted from the body's first
+  int patch = -1;                   ///< its number, see Outline::patches; -1: not known
+  int axis = 0;                     ///< of the outward normal where the patch is not known
+  bool upper = false;               ///< that normal points to larger coordinates
+  bool outermost = false;           ///< on the box around the body: part of one of its flat faces
+  NormalMoments moments{};          ///< with the outward normal, r from the particle
+  std::array<double, 10> extent{};  ///< the same with |N| for N_J
+};
 
 /// The surface between the cells of two particles, N from a to b, r from the middle between the two particles.
 struct CellFacet {
@@ -40,20 +41,20 @@ struct CellFacet {
 struct BodyCells {
   std::vector<CellMoments> cell;  ///< per particle of the body
   std::vector<SurfacePatch> patch;
-  std::vector<CellFacet> facet;  ///< if asked for
+  std::vector<CellFacet> facet;
+  // Bodies with known patches: corners of blocks are moved onto the surface.
+  double farthest_move = 0;  ///< [spacings]
+  std::int64_t unmoved = 0;  ///< corners too far from the surface, which stay where they were
 };
-
-/// What measure_cells is asked for.
-enum class CellParts { cells_and_surface, facets_too };
 
 /// Whether cells are the blocks of a lattice: a box that one fills.
 inline bool has_lattice_cells(Body const& body) { return body.regular && !body.off_lattice && !body.outline.inside; }
 
 /// Exact for boxes filled from a lattice. Others are sampled by blocks of a sixth of the spacing, aligned with the box
-/// around them, packed ones stretched to their exact volume (record 21). Volumes and surface are of the same body, so
-/// the divergence theorem holds for quadratic fields to round-off, for every cell by itself. Needs Body::outline. Cells
-/// may be without a block.
-BodyCells measure_cells(ParticleSet const& set, Body const& body, CellParts parts = CellParts::cells_and_surface);
+/// around them; corners of blocks at a surface with known patches are moved onto it, onto edges and corners included,
+/// so that bodies with flat faces are exact. Every cell is closed by itself, and the divergence theorem holds for
+/// quadratic fields to round-off. Needs Body::outline. Cells may be without a block.
+BodyCells measure_cells(ParticleSet const& set, Body const& body);
 
 /// Gives the particles of a body the volumes of their cells.
 void take_cell_volumes(ParticleSet& set, Body const& body);

@@ -10,6 +10,13 @@
 
 namespace piola {
 
+/// A small piece of a surface patch, nearly flat, close to some place.
+struct PatchFoot {
+  int patch = 0;
+  std::array<double, 3> X{}, normal{};  ///< its middle [m]; outward unit vector
+  double radius = 0;                    ///< about half its extent [m]
+};
+
 /// The region that a body fills in its reference configuration.
 struct Outline {
   std::array<double, 3> min{}, max{};  ///< the box around it [m]
@@ -17,6 +24,8 @@ struct Outline {
   std::function<bool(std::array<double, 3> const&)> inside = {};
   /// Optional signed distance, negative inside, in absolute value at most the true one [m].
   std::function<double(std::array<double, 3> const&)> distance = {};
+  /// Optional. Returns the patches of the surface within `reach` [m] of X, each once.
+  std::function<std::vector<PatchFoot>(std::array<double, 3> const& X, double reach)> patches = {};
 };
 
 /// A body: a contiguous range of particles of one material, generated on a lattice, on rings about a centre, or packed.

@@ -8,6 +8,7 @@
 #include "piola/geometry/packing.hpp"
 #include "piola/geometry/patch_measures.hpp"
 #include "piola/math/array_conversion.hpp"
+#include "piola/neighbours/cell_grid.hpp"
 #include "piola/neighbours/nearest_particle.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/particles/body_range.hpp"
@@ -149,6 +150,56 @@ std::array<int, 3> cell_of(Point const& X, geometry::Bounds const& box, SolidPar
   return cell;
 }
 
+/// The surface of a solid in pieces of a sixth of a spacing, cut on first use.
+class SurfacePieces {
+ public:
+  SurfacePieces(geometry::SolidPtr solid, double spacing) : solid_(std::move(solid)), edge_(spacing / 6) {}
+
+  /// The nearest piece of each patch within `reach`, which is at most half a spacing.
+  std::vector<PatchFoot> near(Point const& X, double reach) {
+    std::call_once(cut_, [this] { cut(); });
+    std::vector<std::pair<double, std::size_t>> nearest;
+    grid_->visit(X, [&](Index k) {
+      auto const piece = static_cast<std::size_t>(k);
+      double square = 0;
+      for (std::size_t c = 0; c < 3; ++c) square += (X[c] - middle_[piece][c]) * (X[c] - middle_[piece][c]);
+      if (square > reach * reach) return;
+      auto const same = std::ranges::find_if(
+          nearest, [&](auto const& known) { return foot_[known.second].patch == foot_[piece].patch; });
+      if (same == nearest.end())
+        nearest.emplace_back(square, piece);
+      else
+        *same = std::min(*same, std::pair(square, piece));
+    });
+    std::vector<PatchFoot> feet;
+    for (auto const& [square, piece] : nearest) feet.push_back(foot_[piece]);
+    std::ranges::sort(feet, {}, &PatchFoot::patch);
+    return feet;
+  }
+
+ private:
+  void cut() {
+    std::vector<geometry::SurfacePiece> pieces;
+    solid_->cut_surface(edge_, pieces);
+    for (auto const& piece : pieces) {
+      double const area = std::sqrt(dot(piece.area, piece.area));
+      if (!(area > 0)) continue;
+      middle_.push_back(array_of(piece.X));
+      // Half the diagonal of a square, half of a line.
+      double const radius = solid_->dimension() == 3 ? std::sqrt(0.5 * area) : 0.5 * area;
+      foot_.push_back({piece.patch, middle_.back(), array_of((1 / area) * piece.area), radius});
+    }
+    grid_.emplace(middle_, 3 * edge_);
+  }
+
+  geometry::SolidPtr solid_;
+  double edge_;  ///< of pieces [m]
+  std::once_flag cut_;
+  std::vector<Point> middle_;
+  std::vector<PatchFoot> foot_;
+  std::optional<CellGrid> grid_;
+};
+
 /// Particles counted from the body's first.
 std::vector<PatchWeight> find_shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body) {
   double const spacing = body.spacing[0];
@@ -252,6 +303,8 @@ void fill_solid(ShapeSpec const& shape, ParticleSet& set, Body& body) {
   body.outline.max = array_of(box.max);
   body.outline.inside = [distance](Point const& X) { return distance(X) <= 0; };
   if (shape.solid->distance_is_bound()) body.outline.distance = distance;
+  body.outline.patches = [pieces = std::make_shared<SurfacePieces>(shape.solid, from.spacing)](
+                             Point const& X, double reach) { return pieces->near(X, reach); };
   auto const append = [](auto const& some, auto& to) { to.own().insert(to.own().end(), some.begin(), some.end()); };
   append(from.X, set.X);
   append(from.lattice_index, set.lattice_index);

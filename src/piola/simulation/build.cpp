@@ -92,6 +92,8 @@ Support support_of(SupportSpec const& spec, CaseSpec const& from, ParticleSet co
                   .name = spec.name,
                   .about = middle_of(ids, particles)};
   if (!holds_surface(from, spec)) return support;
+  if (spec.patch && spec.patch->part == Face::Part::patch) support.patch = spec.patch->axis;
+  support.whole_patch = support.patch >= 0 && !spec.where;
   exec::ReproducibleSums<4> sums;
   for (FaceWeight const& share : supported_weights(particles, body, spec)) {
     support.normals.push_back(share.normal);
@@ -136,6 +138,8 @@ Load load_of(LoadSpec const& spec, CaseSpec const& from, ParticleSet const& part
     return load;
   }
   bool const flat = spec.face.part == Face::Part::flat;
+  if (spec.face.part == Face::Part::patch) load.patch = spec.face.axis;
+  load.whole_patch = load.patch >= 0 && !spec.where;
   for (FaceWeight const& share : loaded_weights(particles, particles.bodies[b], spec)) {
     double const mass = density(share.particle) * particles.volume[static_cast<std::size_t>(share.particle)];
     load.factor.push_back(share.area / mass);

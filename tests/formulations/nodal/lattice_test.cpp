@@ -51,9 +51,9 @@ TEST(NodalLattice, MovesAsWithLists) {
   for (int D = 1; D <= 3; ++D) {
     Assembly a = bent_lattice(D, D - 1);
     a.cfl = 0.3;
-    a.formulations[0].numbers["min_mass_ratio"] =
-        0.05;  // nothing is restrained: masses of clouds are matched otherwise
-    auto const lattice = make_formulation(a), lists = make_formulation(as_cloud(a));
+    Assembly with_lists = a;
+    take_lists(with_lists);
+    auto const lattice = make_formulation(a), lists = make_formulation(with_lists);
     advance(*lattice, 1e-4, 50);
     advance(*lists, 1e-4, 50);
     auto const n = a.particles.X.size();

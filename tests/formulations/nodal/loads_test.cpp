@@ -62,7 +62,6 @@ Assembly body_of(ShapeSpec const& shape) {
 }
 
 TEST(NodalPressure, ThatFollowsAFaceHoldsASwollenAndTurnedBoxInBalance) {
-  PatchForces left;
   for (Cloud const& cloud : clouds()) {
     auto const shape = box_shape(cloud);
     Assembly a = body_of(shape);
@@ -70,7 +69,7 @@ TEST(NodalPressure, ThatFollowsAFaceHoldsASwollenAndTurnedBoxInBalance) {
     double const without = largest(forces(a));
     for (int axis = 0; axis < 3; ++axis)
       for (bool const upper : {false, true}) press(a, shape, {axis, upper}, pressure_at(1.2), true);
-    left.add(cloud, largest(forces(a)) / without);
+    EXPECT_LT(largest(forces(a)), 1e-10 * without) << cloud.jitter << " " << cloud.seed;
     for (auto& load : a.loads) load.follows = false;
     EXPECT_GT(largest(forces(a)), 0.3 * without) << "a dead pressure does not turn";
   }

@@ -30,9 +30,13 @@ template <int D>
 Part part_of(LocalFits<D> const& fits, SurfacePatch const& patch, double counts) {
   Part part;
   auto const a = static_cast<std::size_t>(patch.particle);
-  part.area = counts * patch.area;
-  for (std::size_t c = 0; c < 3; ++c) part.first[c] = counts * (patch.area * fits.X()[a][c] + patch.first[c]);
-  each_share(fits, patch, [&](std::size_t b, double share) { part.weights[static_cast<Index>(b)] += counts * share; });
+  auto moments = patch.extent;
+  for (double& m : moments) m *= counts;
+  part.area = moments[0];
+  for (std::size_t c = 0; c < 3; ++c) part.first[c] = moments[0] * fits.X()[a][c] + moments[1 + c];
+  each_share<D>(fits, a, moments, [&](std::size_t k, double share) {
+    part.weights[static_cast<Index>(particle_of_share<D>(fits, a, k))] += share;
+  });
   return part;
 }
 
@@ -66,6 +70,8 @@ std::vector<Part> parts_of(SetUp const& from, LocalFits<D> const& fits, std::vec
   Load face;
   face.particles = support.particles;
   face.normals = support.normals;
+  face.patch = support.patch;
+  face.whole_patch = support.whole_patch;
   LoadedFace<D> const held(from, fits, patches, face);
   std::vector<Part> parts(support.particles.size());
   for (auto const& patch : patches) {

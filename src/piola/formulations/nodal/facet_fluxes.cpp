@@ -12,7 +12,6 @@ namespace {
 constexpr double worst_condition = 1e4;
 /// Added to the squared distance from the middle of a facet in the weights: particles that share a facet dominate.
 constexpr double core = 0.05;
-constexpr auto own_value = static_cast<std::size_t>(-1);
 
 /// Cholesky factorisation of the normal equations of a fit.
 template <int N>
@@ -128,10 +127,10 @@ std::vector<typename FacetFluxes<D>::Candidate> FacetFluxes<D>::candidates_of(st
   std::vector<Candidate> all;
   all.reserve(pairs.end(a) - pairs.first(a) + 1);
   for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
-    if (pairs.at(k) > a && (k == pairs.first(a) || pairs.at(k - 1) < a)) all.push_back({a, own_value});
+    if (pairs.at(k) > a && (k == pairs.first(a) || pairs.at(k - 1) < a)) all.push_back({a, itself});
     all.push_back({pairs.at(k), k});
   }
-  if (all.size() == pairs.end(a) - pairs.first(a)) all.push_back({a, own_value});
+  if (all.size() == pairs.end(a) - pairs.first(a)) all.push_back({a, itself});
   return all;
 }
 
@@ -165,7 +164,7 @@ bool FacetFluxes<D>::add_facet(std::size_t a, CellFacet const& facet, std::vecto
     Row const y = equations.solve(of_dimension<D>(facet.moments[J]));
     double const sign = a == low ? 1 : -1;
     for (Member const& member : members) {
-      if (member.k == own_value) continue;  // rows sum to zero
+      if (member.k == itself) continue;  // rows sum to zero
       double value = 0;
       for (std::size_t m = 0; m < values; ++m) value += y[m] * member.p[m];
       flux_[member.k * D + J] += sign * member.weight * value;
@@ -176,9 +175,10 @@ bool FacetFluxes<D>::add_facet(std::size_t a, CellFacet const& facet, std::vecto
 
 template <int D>
 void FacetFluxes<D>::add_surface(SurfacePatch const& patch) {
-  each_share_of_pair<D>(fits_, patch, [&](std::size_t k, double share) {
-    if (k != own_value) flux_[k * D + static_cast<std::size_t>(patch.axis)] += patch.upper ? share : -share;
-  });
+  for (std::size_t J = 0; J < D; ++J)
+    each_share<D>(fits_, static_cast<std::size_t>(patch.particle), patch.moments[J], [&](std::size_t k, double share) {
+      if (k != itself) flux_[k * D + J] += share;
+    });
 }
 
 /// Of the gradients of the quadratic monomials.

@@ -27,4 +27,16 @@ void check_gradients(SetUp const& from, GradientQuality const& found, std::vecto
   checks.push_back({of_body + "enlarged_supports", found.enlarged, ""});
 }
 
+void check_surface(SetUp const& from, ScaledBody const& body, std::vector<SetUpCheck>& checks) {
+  if (!from.body.outline.patches) return;
+  checks.push_back({from.body.name + ".farthest_surface_move", body.farthest_move, ""});
+  std::string warning;
+  if (body.unmoved > 0)
+    warning = fmt::format(
+        "body '{}': {:.0f} corners of cells are too far from the surface to be moved onto it, so that cells there are "
+        "steps of a sixth of a spacing - use smaller spacings if the surface has details of this size",
+        from.body.name, body.unmoved);
+  checks.push_back({from.body.name + ".unmoved_corners", body.unmoved, warning});
+}
+
 }  // namespace piola::nodal

@@ -10,4 +10,8 @@ namespace piola::nodal {
 /// quadratic field, is missed by more than rounding.
 void check_gradients(SetUp const& from, GradientQuality const& found, std::vector<SetUpCheck>& checks);
 
+/// Records how far corners of cells were moved onto the surface of the body. Nothing for bodies whose patches are not
+/// known.
+void check_surface(SetUp const& from, ScaledBody const& body, std::vector<SetUpCheck>& checks);
+
 }  // namespace piola::nodal

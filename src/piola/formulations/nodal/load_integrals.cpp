@@ -11,16 +11,21 @@ namespace {
 
 using Point = std::array<double, 3>;
 
+using Moments = std::array<double, 10>;
+
+Moments scaled_moments(Moments moments, double by) {
+  for (double& m : moments) m *= by;
+  return moments;
+}
+
 /// Areas times normals, added up over patches as they are.
 template <int D>
 LazyZeroArray<FacePart> vector_parts(LoadedFace<D> const& face, SurfaceIntegrals<D> const& surface, Point const& area) {
   LazyZeroArray<Point> sum(surface.particles());
-  for (int axis = 0; axis < D; ++axis) {
-    auto const share = surface.shares([&](SurfacePatch const& p) {
-      double const whole = p.axis == axis && face.has(p) ? area[static_cast<std::size_t>(axis)] : 0;
-      return p.upper ? whole : -whole;
-    });
-    surface.for_each_local([&](std::size_t b) { sum[b][static_cast<std::size_t>(axis)] = share[b]; });
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    auto const share = surface.shares(
+        [&](SurfacePatch const& p) { return face.has(p) ? scaled_moments(p.moments[axis], area[axis]) : Moments{}; });
+    surface.for_each_local([&](std::size_t b) { sum[b][axis] = share[b]; });
   }
   LazyZeroArray<FacePart> parts(sum.size());
   surface.for_each_local([&](std::size_t b) {
@@ -34,8 +39,9 @@ LazyZeroArray<FacePart> vector_parts(LoadedFace<D> const& face, SurfaceIntegrals
 template <int D>
 LazyZeroArray<FacePart> scalar_parts(LoadedFace<D> const& face, SurfaceIntegrals<D> const& surface, Point const& area,
                                      std::optional<Point> const& normal) {
-  auto const share =
-      surface.shares([&](SurfacePatch const& p) { return face.cosine(p) * area[static_cast<std::size_t>(p.axis)]; });
+  auto const share = surface.shares([&](SurfacePatch const& p) {
+    return scaled_moments(p.extent, face.cosine(p) * area[static_cast<std::size_t>(p.axis)]);
+  });
   LazyZeroArray<FacePart> parts(share.size());
   surface.for_each_local([&](std::size_t b) { parts[b] = {share[b], normal.value_or(Point{})}; });
   return parts;

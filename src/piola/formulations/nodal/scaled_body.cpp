@@ -17,13 +17,6 @@ ScaledCell reflected(ScaledCell cell, Signs const& sign) {
   return cell;
 }
 
-SurfacePatch reflected(SurfacePatch patch, Signs const& sign) {
-  if (sign[static_cast<std::size_t>(patch.axis)] < 0) patch.upper = !patch.upper;
-  for (std::size_t c = 0; c < 3; ++c) patch.first[c] *= sign[c];
-  for (std::size_t m = 0; m < 6; ++m) patch.second[m] *= sign[moment_axis[m][0]] * sign[moment_axis[m][1]];
-  return patch;
-}
-
 NormalMoments reflected(NormalMoments moments, Signs const& sign) {
   for (std::size_t J = 0; J < 3; ++J) {
     for (double& m : moments[J]) m *= sign[J];
@@ -31,6 +24,14 @@ NormalMoments reflected(NormalMoments moments, Signs const& sign) {
     for (std::size_t m = 0; m < 6; ++m) moments[J][4 + m] *= sign[moment_axis[m][0]] * sign[moment_axis[m][1]];
   }
   return moments;
+}
+
+SurfacePatch reflected(SurfacePatch patch, Signs const& sign) {
+  if (sign[static_cast<std::size_t>(patch.axis)] < 0) patch.upper = !patch.upper;
+  patch.moments = reflected(patch.moments, sign);
+  for (std::size_t c = 0; c < 3; ++c) patch.extent[1 + c] *= sign[c];
+  for (std::size_t m = 0; m < 6; ++m) patch.extent[4 + m] *= sign[moment_axis[m][0]] * sign[moment_axis[m][1]];
+  return patch;
 }
 
 /// Moments about a place `by` away from the one that they are about.
@@ -135,11 +136,8 @@ class FacetsBehindPlanes {
     behind[axis] += 2 * height;
     Index const b = place_of_(behind);
     if (b < 0) return;
-    std::array<double, 10> moments{};
-    double const sign = patch.upper ? 0.5 : -0.5;
-    moments[0] = sign * patch.area;
-    for (std::size_t c = 0; c < 3; ++c) moments[1 + c] = sign * patch.first[c];
-    for (std::size_t m = 0; m < 6; ++m) moments[4 + m] = sign * patch.second[m];
+    auto moments = patch.moments[axis];
+    for (double& m : moments) m *= 0.5;
     std::array<double, 3> middle{};
     middle[axis] = height;
     CellFacet facet{patch.particle, b, {}};
@@ -202,7 +200,7 @@ ScaledBody scaled_body(SetUp const& from) {
     r.h[c] = body.spacing[c];
     r.h_volume *= body.spacing[c];
   }
-  BodyCells measured = measure_cells(set, body, CellParts::facets_too);
+  BodyCells measured = measure_cells(set, body);
   std::vector<Index> slot_of(measured.cell.size());
   r.X.reserve(measured.cell.size());
   r.cells.reserve(measured.cell.size());
@@ -220,12 +218,19 @@ ScaledBody scaled_body(SetUp const& from) {
     for (std::size_t m = 0; m < 6; ++m) r.cells.back().spread[m] /= r.h[moment_axis[m][0]] * r.h[moment_axis[m][1]];
   }
   r.patches = std::move(measured.patch);
+  r.farthest_move = measured.farthest_move;
+  r.unmoved = static_cast<double>(measured.unmoved);
+  // Moments over an area of one spacing across `axis`.
+  auto const scale = [&r](std::array<double, 10>& moments, std::size_t axis) {
+    double const area = r.h_volume / r.h[axis];
+    for (double& m : moments) m /= area;
+    for (std::size_t c = 0; c < 3; ++c) moments[1 + c] /= r.h[c];
+    for (std::size_t m = 0; m < 6; ++m) moments[4 + m] /= r.h[moment_axis[m][0]] * r.h[moment_axis[m][1]];
+  };
   for (auto& patch : r.patches) {
     patch.particle = slot_of[static_cast<std::size_t>(patch.particle)];
-    double const area = r.h_volume / r.h[static_cast<std::size_t>(patch.axis)];
-    patch.area /= area;
-    for (std::size_t c = 0; c < 3; ++c) patch.first[c] /= area * r.h[c];
-    for (std::size_t m = 0; m < 6; ++m) patch.second[m] /= area * r.h[moment_axis[m][0]] * r.h[moment_axis[m][1]];
+    scale(patch.extent, static_cast<std::size_t>(patch.axis));
+    for (std::size_t J = 0; J < 3; ++J) scale(patch.moments[J], J);
   }
   r.facets = std::move(measured.facet);
   for (auto& facet : r.facets) {
@@ -233,10 +238,8 @@ ScaledBody scaled_body(SetUp const& from) {
     facet.a = std::min(a, b);
     facet.b = std::max(a, b);
     for (std::size_t J = 0; J < 3; ++J) {
-      double const area = (a < b ? 1 : -1) * r.h_volume / r.h[J];
-      for (double& m : facet.moments[J]) m /= area;
-      for (std::size_t c = 0; c < 3; ++c) facet.moments[J][1 + c] /= r.h[c];
-      for (std::size_t m = 0; m < 6; ++m) facet.moments[J][4 + m] /= r.h[moment_axis[m][0]] * r.h[moment_axis[m][1]];
+      scale(facet.moments[J], J);
+      for (double& m : facet.moments[J]) m *= a < b ? 1 : -1;
     }
   }
   r.particles = r.X.size();

@@ -33,8 +33,9 @@ struct ScaledBody {
   std::vector<SurfacePatch> patches;
   std::vector<CellFacet> facets;
   std::array<double, 3> h{1, 1, 1};
-  double h_volume = 1;        ///< product of the spacings
-  std::size_t particles = 0;  ///< without images
+  double h_volume = 1;                    ///< product of the spacings
+  std::size_t particles = 0;              ///< without images
+  double farthest_move = 0, unmoved = 0;  ///< see BodyCells
 };
 
 /// Frees the memory of the cells of all particles except `of`.

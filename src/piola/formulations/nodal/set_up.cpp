@@ -75,14 +75,27 @@ struct MassOptions {
   bool endless;  ///< between two mirror planes
 };
 
+/// Exact volume of a packed body over that of its cells, whose curved faces are chords.
+double volume_of_chords(SetUp const& from, ScaledBody const& scaled) {
+  if (!from.body.off_lattice || !from.body.outline.patches) return 1;
+  double exact = 0, cells = 0;
+  for (auto id = from.body.first; id < from.body.last; ++id) exact += from.set.volume[static_cast<std::size_t>(id)];
+  for (std::size_t a = 0; a < scaled.particles; ++a) cells += scaled.cells[a].volume * scaled.h_volume;
+  return exact / cells;
+}
+
 template <int D>
 LazyZeroArray<double> masses(SetUp const& from, ScaledBody const& scaled, std::optional<LatticeShape> const& shape,
                              MassOptions const& options) {
   auto const heavy = heavy_cells(from, scaled.cells);
   if (heavy.empty() && has_lattice_cells(from.body))
     if (auto mass = lattice_masses(scaled, D, from.least_mass)) return std::move(*mass);
-  return exact_masses<D>(scaled.X, heavy.empty() ? scaled.cells : heavy,
-                         {from.least_mass, shape, !has_lattice_cells(from.body) && !options.endless, options.shared});
+  auto mass =
+      exact_masses<D>(scaled.X, heavy.empty() ? scaled.cells : heavy,
+                      {from.least_mass, shape, !has_lattice_cells(from.body) && !options.endless, options.shared});
+  double const factor = volume_of_chords(from, scaled);
+  for (double& m : mass) m *= factor;
+  return mass;
 }
 
 template <int D>
@@ -125,6 +138,7 @@ Reference make(SetUp const& from) {
   if (shared) r.halo = std::make_unique<HaloPlan>(shared->slots, ghost_neighbours(fits.pairs(), fits.own()));
   SurfaceIntegrals<D> const surface(fits, scaled.patches);
   check_gradients(from, fluxes.measure(surface), r.checks);
+  check_surface(from, scaled, r.checks);
   r.parts = load_integrals<D>(from, fits, surface, {scaled.h, r.checks});
   for (auto& parts : r.parts) parts.resize(std::min(parts.size(), scaled.particles));
   r.held = constrained_facets<D>(from, fits, scaled.patches, scaled.h);

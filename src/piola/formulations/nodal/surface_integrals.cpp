@@ -4,13 +4,15 @@
 namespace piola::nodal {
 
 template <int D>
-LazyZeroArray<double> SurfaceIntegrals<D>::shares(std::function<double(SurfacePatch const&)> const& weight) const {
+LazyZeroArray<double> SurfaceIntegrals<D>::shares(std::function<Moments(SurfacePatch const&)> const& moments_of) const {
   LazyZeroArray<double> share(fits_.X().size());
   for (auto const& patch : patches_) {
-    if (!fits_.has(static_cast<std::size_t>(patch.particle))) continue;  // far from the particles of this rank
-    double const counts = weight(patch);
-    if (counts == 0) continue;
-    each_share<D>(fits_, patch, [&](std::size_t b, double part) { share[b] += counts * part; });
+    auto const a = static_cast<std::size_t>(patch.particle);
+    if (!fits_.has(a)) continue;  // far from the particles of this rank
+    Moments const moments = moments_of(patch);
+    if (moments == Moments{}) continue;
+    each_share<D>(fits_, a, moments,
+                  [&](std::size_t k, double part) { share[particle_of_share<D>(fits_, a, k)] += part; });
   }
   return share;
 }
@@ -18,11 +20,10 @@ LazyZeroArray<double> SurfaceIntegrals<D>::shares(std::function<double(SurfacePa
 template <int D>
 LazyZeroArray<double> SurfaceIntegrals<D>::surface_vectors() const {
   LazyZeroArray<double> A(fits_.X().size() * D);
-  for (int axis = 0; axis < D; ++axis)
-    for (bool const upper : {false, true}) {
-      auto const share = shares([&](SurfacePatch const& p) { return p.axis == axis && p.upper == upper ? 1.0 : 0.0; });
-      for_each_local([&](std::size_t b) { A[b * D + static_cast<std::size_t>(axis)] += upper ? share[b] : -share[b]; });
-    }
+  for (std::size_t J = 0; J < D; ++J) {
+    auto const share = shares([J](SurfacePatch const& p) { return p.moments[J]; });
+    for_each_local([&](std::size_t b) { A[b * D + J] = share[b]; });
+  }
   return A;
 }
 

@@ -16,10 +16,11 @@ class SurfaceIntegrals {
   SurfaceIntegrals(LocalFits<D> const& fits, std::vector<SurfacePatch> const& patches)
       : fits_(fits), patches_(patches) {}
 
-  /// Weights of pressure and traction on the chosen patches per particle, along the outward normals, exact for
-  /// quadratic fields: sum_b share_b (1, X, XX) is the integral over these patches. weight(patch): factor of a patch,
-  /// zero if not loaded.
-  LazyZeroArray<double> shares(std::function<double(SurfacePatch const&)> const& weight) const;
+  using Moments = std::array<double, 10>;
+  /// Weights of a load on patches per particle, exact for quadratic fields: sum_b share_b (1, X, XX) is the integral
+  /// over these patches. moments_of(patch): moments of the load on a patch, those of its extent or of a component of
+  /// its normal; all zero if it is not loaded.
+  LazyZeroArray<double> shares(std::function<Moments(SurfacePatch const&)> const& moments_of) const;
   std::vector<SurfacePatch> const& patches() const { return patches_; }
   std::size_t particles() const { return fits_.X().size(); }
   /// Calls f(b) for the local particles.
@@ -39,30 +40,28 @@ extern template class SurfaceIntegrals<1>;
 extern template class SurfaceIntegrals<2>;
 extern template class SurfaceIntegrals<3>;
 
-/// Calls f(b, share) with the weights of particles in the integral of a motion over a patch: an expansion about the
-/// nearest particle a by its fit. `b` is a position in pairs() of a, or `none` for a itself, which comes last.
+/// Calls f(k, share) with the weights of particles in the integral of a motion over a piece of surface with these
+/// moments about particle a: an expansion by the fit of a. `k` is a position in the pairs of a, or `itself`, which
+/// comes last.
+constexpr auto itself = static_cast<std::size_t>(-1);
 template <int D, class F>
-void each_share_of_pair(LocalFits<D> const& fits, SurfacePatch const& patch, F const& f) {
-  auto const a = static_cast<std::size_t>(patch.particle);
-  double own = patch.area;
+void each_share(LocalFits<D> const& fits, std::size_t a, std::array<double, 10> const& moments, F const& f) {
+  double own = moments[0];
   for (std::size_t k = fits.pairs().first(a); k < fits.pairs().end(a); ++k) {
     auto const e = fits.derivatives(a, k);
     double moved = 0;
-    for (std::size_t i = 0; i < D; ++i) moved += patch.first[i] * e[i];
-    for (int m = 0; m < Quadratic<D>::second; ++m)
-      moved += patch.second[moment_of_second<D>(m)] * e[std::size_t{D} + m];
+    for (std::size_t i = 0; i < D; ++i) moved += moments[1 + i] * e[i];
+    for (int m = 0; m < Quadratic<D>::second; ++m) moved += moments[4 + moment_of_second<D>(m)] * e[std::size_t{D} + m];
     f(k, moved);
     own -= moved;
   }
-  f(static_cast<std::size_t>(-1), own);
+  f(itself, own);
 }
 
-/// As above; `b` is a particle.
-template <int D, class F>
-void each_share(LocalFits<D> const& fits, SurfacePatch const& patch, F const& f) {
-  each_share_of_pair<D>(fits, patch, [&](std::size_t k, double share) {
-    f(k == static_cast<std::size_t>(-1) ? static_cast<std::size_t>(patch.particle) : fits.pairs().at(k), share);
-  });
+/// The particle of a share.
+template <int D>
+std::size_t particle_of_share(LocalFits<D> const& fits, std::size_t a, std::size_t k) {
+  return k == itself ? a : fits.pairs().at(k);
 }
 
 }  // namespace piola::nodal
