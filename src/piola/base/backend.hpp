@@ -16,7 +16,7 @@
 
 /// PIOLA_FN: a function for all back ends. PIOLA_INLINE_FN: one that loops call per particle or per pair, which a back
 /// end always inlines. g++ 12 reaches its limits of growth in these files, and calls pass tensors of lanes through
-/// memory: jst_sph with AVX2 ran at three quarters of its rate.
+/// memory: jst_sph with AVX2 ran at 0.8 of its rate.
 #if defined(__CUDACC__)
 #define PIOLA_FN __host__ __device__ inline
 #else
