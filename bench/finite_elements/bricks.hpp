@@ -2,6 +2,7 @@
 #pragma once
 #include "mesh.hpp"
 #include <algorithm>
+#include <utility>
 
 namespace bricks {
 
@@ -177,12 +178,10 @@ class Bricks {
   }
 
   /// The last lane of the pack before, then all of this one but its last.
-  static Pack shifted(Pack before, Pack now) {
-#if defined(__AVX512F__)
-    return __builtin_shufflevector(before, now, 7, 8, 9, 10, 11, 12, 13, 14);
-#else
-    return __builtin_shufflevector(before, now, 3, 4, 5, 6);
-#endif
+  static Pack shifted(Pack before, Pack now) { return shifted(before, now, std::make_index_sequence<width>()); }
+  template <std::size_t... lane>
+  static Pack shifted(Pack before, Pack now, std::index_sequence<lane...>) {
+    return __builtin_shufflevector(before, now, (width - 1 + lane)...);
   }
 
   double mu_, kappa_, density_ = 0, volume_ = 0;

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <numbers>
 #include <optional>
 #include <sstream>
@@ -34,7 +35,7 @@ struct Outcome {
   std::vector<Curve> curves;
   std::ptrdiff_t steps = 0;
   double energy_error = 0;  ///< largest |change| without a moving support, in parts of the energy at the start
-  double seconds = 0, bricks = 0;
+  double seconds = 0, processor_seconds = 0, bricks = 0;
 };
 
 /// Makes an angle continuous: no more than half a turn from what it was before.
@@ -66,6 +67,7 @@ class Run {
     Outcome out;
     out.bricks = static_cast<double>(mesh_.cells[0] * mesh_.cells[1] * mesh_.cells[2]);
     auto const begin = std::chrono::steady_clock::now();
+    std::clock_t const processor_begin = std::clock();
     record(out, problem_.trace(mesh_), 0);
     bool first = true;
     double dt = 0, before = 0;
@@ -85,6 +87,7 @@ class Run {
       ++out.steps;
     }
     out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    out.processor_seconds = static_cast<double>(std::clock() - processor_begin) / CLOCKS_PER_SEC;
     return out;
   }
 
@@ -240,7 +243,7 @@ void print_head(Problem const& problem, Options const& options) {
               "steps");
   for (Reading const& r : problem.readings) std::printf("  %s [%s]", r.name.c_str(), r.unit.c_str());
   std::printf("  energy error");
-  if (options.time) std::printf("  seconds  million brick-steps/s");
+  if (options.time) std::printf("  seconds  million brick-steps/s  per cpu s");
   std::printf("\n");
 }
 
@@ -252,8 +255,9 @@ void print_run(Problem const& problem, Options const& options, std::ptrdiff_t ac
     std::printf("  %*.5f", static_cast<int>(r.name.size() + r.unit.size() + 3), values[k]);
   }
   std::printf("  %12.1e", run.energy_error);
-  double const rate = run.bricks * static_cast<double>(run.steps) / run.seconds / 1e6;
-  if (options.time) std::printf("  %7.2f  %21.2f", run.seconds, rate);
+  double const work = run.bricks * static_cast<double>(run.steps) / 1e6;
+  if (options.time)
+    std::printf("  %7.2f  %21.2f  %9.2f", run.seconds, work / run.seconds, work / run.processor_seconds);
   std::printf("\n");
   std::fflush(stdout);
 }

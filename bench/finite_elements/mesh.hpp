@@ -8,13 +8,17 @@
 
 namespace bricks {
 
-#if defined(__AVX512F__)
+/// Number of bricks that are handled at once: -DBRICKS_WIDTH=1 compiles the loop over single bricks, to compare with.
+#if defined(BRICKS_WIDTH)
+inline constexpr std::ptrdiff_t width = BRICKS_WIDTH;
+#elif defined(__AVX512F__)
 inline constexpr std::ptrdiff_t width = 8;
 #else
 inline constexpr std::ptrdiff_t width = 4;
 #endif
+static_assert(width == 1 || width == 2 || width == 4 || width == 8);
 
-/// As many doubles as the processor handles at once: one per element.
+/// One value for each of `width` bricks.
 typedef double Pack __attribute__((vector_size(width * sizeof(double))));
 
 inline Pack load(double const* at) {

@@ -16,7 +16,7 @@ struct View {
   std::ptrdiff_t component_stride, particle_stride, tile_extra = 0;
 
   template <class V>
-  PIOLA_FN V scalar(Index i, int c = 0) const {
+  PIOLA_INLINE_FN V scalar(Index i, int c = 0) const {
     double const* p = data + c * component_stride + i * particle_stride + (i >> tile_bits) * tile_extra;
     if constexpr (std::is_same_v<V, double>) {
       return *p;
@@ -28,19 +28,19 @@ struct View {
     }
   }
   template <int D, class V>
-  PIOLA_FN Vec<D, V> vector(Index i, int first = 0) const {
+  PIOLA_INLINE_FN Vec<D, V> vector(Index i, int first = 0) const {
     Vec<D, V> r;
     for (int c = 0; c < D; ++c) r[c] = scalar<V>(i, first + c);
     return r;
   }
   template <int D, class V>
-  PIOLA_FN Mat<D, V> matrix(Index i) const {
+  PIOLA_INLINE_FN Mat<D, V> matrix(Index i) const {
     Mat<D, V> r;
     for (int c = 0; c < D * D; ++c) r.c[c] = scalar<V>(i, c);
     return r;
   }
   template <int D, class V>
-  PIOLA_FN SymMat<D, V> symmetric(Index i) const {
+  PIOLA_INLINE_FN SymMat<D, V> symmetric(Index i) const {
     SymMat<D, V> r;
     for (int c = 0; c < SymMat<D>::size; ++c) r.c[c] = scalar<V>(i, c);
     return r;
@@ -52,19 +52,19 @@ struct ReferenceView {
   View stored;
   std::int32_t const* group;
 
-  PIOLA_FN Index place(Index i) const {
+  PIOLA_INLINE_FN Index place(Index i) const {
     return group == nullptr ? i : group[i / lane_count] * lane_count + i % lane_count;
   }
   template <class V>
-  PIOLA_FN V scalar(Index i, int c = 0) const {
+  PIOLA_INLINE_FN V scalar(Index i, int c = 0) const {
     return stored.scalar<V>(place(i), c);
   }
   template <int D, class V>
-  PIOLA_FN Vec<D, V> vector(Index i) const {
+  PIOLA_INLINE_FN Vec<D, V> vector(Index i) const {
     return stored.vector<D, V>(place(i));
   }
   template <int D, class V>
-  PIOLA_FN SymMat<D, V> symmetric(Index i) const {
+  PIOLA_INLINE_FN SymMat<D, V> symmetric(Index i) const {
     return stored.symmetric<D, V>(place(i));
   }
 };
@@ -75,7 +75,7 @@ struct WriteView {
   std::ptrdiff_t component_stride, particle_stride, tile_extra = 0;
 
   template <class V>
-  PIOLA_FN void scalar(Index i, V const& value, int c = 0) const {
+  PIOLA_INLINE_FN void scalar(Index i, V const& value, int c = 0) const {
     double* p = data + c * component_stride + i * particle_stride + (i >> tile_bits) * tile_extra;
     if constexpr (std::is_same_v<V, double>) {
       *p = value;
@@ -85,11 +85,11 @@ struct WriteView {
     }
   }
   template <int D, class V>
-  PIOLA_FN void vector(Index i, Vec<D, V> const& v, int first = 0) const {
+  PIOLA_INLINE_FN void vector(Index i, Vec<D, V> const& v, int first = 0) const {
     for (int c = 0; c < D; ++c) scalar(i, v[c], first + c);
   }
   template <int D, class V>
-  PIOLA_FN void matrix(Index i, Mat<D, V> const& m, int first = 0) const {
+  PIOLA_INLINE_FN void matrix(Index i, Mat<D, V> const& m, int first = 0) const {
     for (int c = 0; c < D * D; ++c) scalar(i, m.c[c], first + c);
   }
 };

@@ -8,7 +8,7 @@ namespace piola::inline PIOLA_BACKEND {
 /// arithmetic: Pade start (6 % off at the ends), then Newton steps y <- y (4 - a y^3) / 3, each squaring the error.
 /// Outside, lane by lane, the library's cube root; so the result does not depend on the other lanes.
 template <class T>
-PIOLA_FN T power_minus_third(T const& a) {
+PIOLA_INLINE_FN T power_minus_third(T const& a) {
   T y = (a + 2.0) / (2.0 * a + 1.0);
   for (int k = 0; k < 4; ++k) y = y * (4.0 - a * (y * y * y)) * (1.0 / 3.0);
   auto const outside = (a < 0.25) || (a > 4.0);
@@ -21,7 +21,7 @@ PIOLA_FN T power_minus_third(T const& a) {
 /// 1), |z| < 0.175; what is left out is below 1e-17 of the result. Outside, lane by lane, the library's logarithm; so
 /// the result does not depend on the other lanes.
 template <class T>
-PIOLA_FN T logarithm(T const& a) {
+PIOLA_INLINE_FN T logarithm(T const& a) {
   T m = a, halvings = T(0.0);
   for (int k = 0; k < 2; ++k) {
     auto const high = m > 1.42;

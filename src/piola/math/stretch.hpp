@@ -14,7 +14,7 @@ struct StretchRoots {
 /// form has no multiple root, so two Newton steps from a rational start reach round-off for every r in [-1, 1], with no
 /// trigonometry.
 template <class T>
-PIOLA_FN StretchRoots<T> stretch_roots(Mat<3, T> const& F) {
+PIOLA_INLINE_FN StretchRoots<T> stretch_roots(Mat<3, T> const& F) {
   Mat<3, T> B = transpose(F) * F;
   T const q = trace(B) * (1.0 / 3.0);
   for (int i = 0; i < 3; ++i) B(i, i) = B(i, i) - q;
@@ -33,7 +33,7 @@ PIOLA_FN StretchRoots<T> stretch_roots(Mat<3, T> const& F) {
 
 /// Smallest eigenvalue of C = F^T F, i.e. the square of the smallest principal stretch.
 template <class T>
-PIOLA_FN T smallest_stretch_squared(Mat<3, T> const& F) {
+PIOLA_INLINE_FN T smallest_stretch_squared(Mat<3, T> const& F) {
   auto const [q, p, d] = stretch_roots(F);
   return q - p * (1.0 + d);
 }
@@ -41,7 +41,7 @@ PIOLA_FN T smallest_stretch_squared(Mat<3, T> const& F) {
 /// All eigenvalues of C = F^T F, smallest first. Near a double root the two larger ones carry the square root of the
 /// round-off.
 template <class T>
-PIOLA_FN Vec<3, T> principal_stretches_squared(Mat<3, T> const& F) {
+PIOLA_INLINE_FN Vec<3, T> principal_stretches_squared(Mat<3, T> const& F) {
   auto const [q, p, d] = stretch_roots(F);
   // t^3 - 3 t = 2 r divided by its smallest root t_1 = -1 - d: t^2 + t_1 t + t_1^2 - 3 = 0.
   T const middle = 0.5 * (1.0 + d), apart = square_root(maximum(3.0 - 3.0 * (middle * middle), T(0.0)));

@@ -15,7 +15,7 @@ struct Eigen {
 /// Upper bound of the eigenvalues (Gershgorin): the largest sum of a diagonal component and the absolute off-diagonal
 /// values of its row.
 template <int D, class V>
-PIOLA_FN V eigenvalue_bound(SymMat<D, V> const& A) {
+PIOLA_INLINE_FN V eigenvalue_bound(SymMat<D, V> const& A) {
   V bound(-1e300);
   for (int i = 0; i < D; ++i) {
     V sum(0.0);
@@ -31,7 +31,7 @@ PIOLA_FN V eigenvalue_bound(SymMat<D, V> const& A) {
 /// Jacobi's method: rotations in the planes of the off-diagonal components until these are round-off of the rest.
 /// A lane whose tensor is diagonal enough rotates no more, so that its result does not depend on the other lanes.
 template <int D, class V>
-PIOLA_FN Eigen<D, V> symmetric_eigen(SymMat<D, V> A) {
+PIOLA_INLINE_FN Eigen<D, V> symmetric_eigen(SymMat<D, V> A) {
   Eigen<D, V> e;
   Mat<D, V> Q = identity<D, V>();
   for (int sweep = 0; sweep < 12; ++sweep) {  // each squares the size of what is left; three or four suffice

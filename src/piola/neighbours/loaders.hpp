@@ -37,7 +37,7 @@ struct StencilLoader {
   static constexpr bool contiguous = true;
 
   template <class Body>
-  PIOLA_FN void operator()(Index i, Body const& body, Lanes (&result)[Body::sums]) const {
+  PIOLA_INLINE_FN void operator()(Index i, Body const& body, Lanes (&result)[Body::sums]) const {
     Lanes sums[Body::sums];  // local, so that the compiler keeps them in registers
     for (int c = 0; c < Body::sums; ++c) sums[c] = Lanes(0.0);
     auto const own = body.template own<Lanes>(i);
@@ -50,8 +50,8 @@ struct StencilLoader {
  private:
   /// Entries that all lanes have come in long runs, so that the branch costs little.
   template <bool Inner, class Body, class Own>
-  PIOLA_FN void visit_all(Index i, std::int32_t const (&run)[2], Body const& body, Own const& own,
-                          Lanes (&sums)[Body::sums]) const {
+  PIOLA_INLINE_FN void visit_all(Index i, std::int32_t const (&run)[2], Body const& body, Own const& own,
+                                 Lanes (&sums)[Body::sums]) const {
     for (int e = run[0]; e < run[1]; ++e) {
       StencilEntry const& entry = table.entries[e];
       if (entry.weights < 0)
@@ -61,8 +61,8 @@ struct StencilLoader {
     }
   }
   template <bool Masked, bool Inner, class Body, class Own>
-  PIOLA_FN void visit(Index i, StencilEntry const& e, Body const& body, Own const& own,
-                      Lanes (&sums)[Body::sums]) const {
+  PIOLA_INLINE_FN void visit(Index i, StencilEntry const& e, Body const& body, Own const& own,
+                             Lanes (&sums)[Body::sums]) const {
     constexpr int fields = Inner ? Body::fields : Body::outer_fields;
     StencilOffset const& o = table.offsets[e.offset];
     Lanes f[fields];
@@ -97,7 +97,7 @@ struct ListLoader {
   static constexpr bool contiguous = false;
 
   template <class Body>
-  PIOLA_FN void operator()(Index i, Body const& body, Lanes (&sums)[Body::sums]) const {
+  PIOLA_INLINE_FN void operator()(Index i, Body const& body, Lanes (&sums)[Body::sums]) const {
     constexpr int padded = (Body::sums + 7) / 8 * 8;
     double rows[lane_count * padded];
     for (int k = 0; k < lane_count; ++k) {
@@ -113,7 +113,7 @@ struct ListLoader {
 
  private:
   template <class Body>
-  PIOLA_FN void sum_one(Index a, Body const& body, Lanes (&sums)[Body::sums]) const {
+  PIOLA_INLINE_FN void sum_one(Index a, Body const& body, Lanes (&sums)[Body::sums]) const {
     auto const own = body.template own<double>(a);
     std::int64_t k = table.begin[a];
     std::int64_t const inner_end = k + table.inner[a];
@@ -124,7 +124,8 @@ struct ListLoader {
 
   /// A record is X_b followed by the body's fields; `gathered` points at the fields.
   template <bool Inner, class Body, class Own>
-  PIOLA_FN void visit(Index a, std::int64_t k, Body const& body, Own const& own, Lanes (&sums)[Body::sums]) const {
+  PIOLA_INLINE_FN void visit(Index a, std::int64_t k, Body const& body, Own const& own,
+                             Lanes (&sums)[Body::sums]) const {
     constexpr int fields = Inner ? Body::fields : Body::outer_fields;
     std::ptrdiff_t const stride = body.gathered.particle_stride;
     if constexpr (Body::smooths) return smooth(k, body, own, sums);
@@ -150,7 +151,7 @@ struct ListLoader {
   /// Prefetches the next neighbours. Rows are contiguous in memory, so neighbours of the next particles mostly follow
   /// those of this one. Prefetching into the second-level cache saves up to a tenth of both sweeps (record 4).
   template <int Values>
-  PIOLA_FN static void fetch_ahead(double const* base, std::ptrdiff_t stride, Index const* neighbour) {
+  PIOLA_INLINE_FN static void fetch_ahead(double const* base, std::ptrdiff_t stride, Index const* neighbour) {
 #if PIOLA_HAS_PACKS
     constexpr int ahead = 3, line = 8;  // records, doubles
     for (int l = 0; l < lane_count; ++l)
@@ -162,7 +163,7 @@ struct ListLoader {
 
   /// Few values per neighbour and no geometry: no record is worth loading.
   template <class Body, class Own>
-  PIOLA_FN void smooth(std::int64_t k, Body const& body, Own const& own, Lanes (&sums)[Body::sums]) const {
+  PIOLA_INLINE_FN void smooth(std::int64_t k, Body const& body, Own const& own, Lanes (&sums)[Body::sums]) const {
     Lanes f[Body::fields];
     View const& from = body.gathered;
     for (int c = 0; c < Body::fields; ++c) {

@@ -38,8 +38,7 @@ inline void load_two(double const* const (&row)[8], __m512d (&r)[2]) {
 
 /// As load_records; what is left of the components beyond a multiple of eight, up to four, costs half a transposition.
 template <int N>
-[[gnu::always_inline]] PIOLA_FN void load_components(double const* base, std::ptrdiff_t stride, Index const* index,
-                                                     Lanes (&f)[N]) {
+PIOLA_INLINE_FN void load_components(double const* base, std::ptrdiff_t stride, Index const* index, Lanes (&f)[N]) {
   constexpr int rest = N % 8, whole = N - rest;
   if constexpr (rest == 0 || rest > 4) {
     load_records<N>(base, stride, index, f);
@@ -84,8 +83,7 @@ PIOLA_FN void store_records(double* const (&to)[lane_count], int first, Lanes co
 }
 
 template <int N>
-[[gnu::always_inline]] PIOLA_FN void load_components(double const* base, std::ptrdiff_t stride, Index const* index,
-                                                     Lanes (&f)[N]) {
+PIOLA_INLINE_FN void load_components(double const* base, std::ptrdiff_t stride, Index const* index, Lanes (&f)[N]) {
   load_records<N>(base, stride, index, f);
 }
 #endif

@@ -33,7 +33,7 @@ inline void transpose(__m512d (&r)[8]) {
 /// f[c] = component c of the records base + index[l] * stride, l over the lanes. Reads whole groups of lane_count
 /// components: records are padded to a multiple of 8 doubles.
 template <int N>
-PIOLA_FN void load_records(double const* base, std::ptrdiff_t stride, Index const* index, Lanes (&f)[N]) {
+PIOLA_INLINE_FN void load_records(double const* base, std::ptrdiff_t stride, Index const* index, Lanes (&f)[N]) {
   for (int first = 0; first < N; first += 8) {
     __m512d r[8];
     for (int l = 0; l < 8; ++l) r[l] = _mm512_loadu_pd(base + index[l] * stride + first);
@@ -44,7 +44,7 @@ PIOLA_FN void load_records(double const* base, std::ptrdiff_t stride, Index cons
 
 /// out[c] = sum of the lanes of a[c]; out has room for a multiple of 8 values.
 template <int N>
-PIOLA_FN void add_lanes(Lanes const (&a)[N], double* out) {
+PIOLA_INLINE_FN void add_lanes(Lanes const (&a)[N], double* out) {
   for (int first = 0; first < N; first += 8) {
     __m512d r[8], s[4], x[2];
     for (int c = 0; c < 8; ++c)
@@ -60,7 +60,7 @@ PIOLA_FN void add_lanes(Lanes const (&a)[N], double* out) {
 }
 #elif PIOLA_HAS_PACKS && defined(__AVX2__)
 template <int N>
-PIOLA_FN void load_records(double const* base, std::ptrdiff_t stride, Index const* index, Lanes (&f)[N]) {
+PIOLA_INLINE_FN void load_records(double const* base, std::ptrdiff_t stride, Index const* index, Lanes (&f)[N]) {
   for (int first = 0; first < N; first += 4) {
     __m256d r[4], t[4];
     for (int l = 0; l < 4; ++l) r[l] = _mm256_loadu_pd(base + index[l] * stride + first);
@@ -76,7 +76,7 @@ PIOLA_FN void load_records(double const* base, std::ptrdiff_t stride, Index cons
 }
 
 template <int N>
-PIOLA_FN void add_lanes(Lanes const (&a)[N], double* out) {
+PIOLA_INLINE_FN void add_lanes(Lanes const (&a)[N], double* out) {
   for (int first = 0; first < N; first += 4) {
     __m256d r[4], s[2];
     for (int c = 0; c < 4; ++c)
@@ -88,7 +88,7 @@ PIOLA_FN void add_lanes(Lanes const (&a)[N], double* out) {
 }
 #else
 template <int N>
-PIOLA_FN void load_records(double const* base, std::ptrdiff_t stride, Index const* index, Lanes (&f)[N]) {
+PIOLA_INLINE_FN void load_records(double const* base, std::ptrdiff_t stride, Index const* index, Lanes (&f)[N]) {
   for (int c = 0; c < N; ++c) {
 #if PIOLA_HAS_PACKS
     for (int l = 0; l < lane_count; ++l) f[c][l] = base[index[l] * stride + c];
@@ -99,7 +99,7 @@ PIOLA_FN void load_records(double const* base, std::ptrdiff_t stride, Index cons
 }
 
 template <int N>
-PIOLA_FN void add_lanes(Lanes const (&a)[N], double* out) {
+PIOLA_INLINE_FN void add_lanes(Lanes const (&a)[N], double* out) {
   for (int c = 0; c < N; ++c) {
     double sum = 0;
     for (int l = 0; l < lane_count; ++l) sum += lane(a[c], l);

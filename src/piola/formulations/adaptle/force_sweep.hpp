@@ -27,7 +27,7 @@ struct ForcePairs {
     bool feels;  ///< whether there is viscosity
   };
   template <class V>
-  [[gnu::always_inline]] PIOLA_FN static auto own_at(RecordPlace const& p) {
+  PIOLA_INLINE_FN static auto own_at(RecordPlace const& p) {
     Own<V> own;
     if constexpr (viscous) {
       for (int k = 0; k < D; ++k) {
@@ -44,8 +44,8 @@ struct ForcePairs {
   }
 
   template <class V, class Fields>
-  [[gnu::always_inline]] PIOLA_FN void add(Lanes (&sum)[sums], Own<V> const& own, PairGeometry<D, Lanes> const& g,
-                                           Fields const& f) const {
+  PIOLA_INLINE_FN void add(Lanes (&sum)[sums], Own<V> const& own, PairGeometry<D, Lanes> const& g,
+                           Fields const& f) const {
     for (int p = 0; p < D; ++p) {
       Lanes reaction = f(R::A + p * D) * g.r[0];
       for (int q = 1; q < D; ++q) reaction += f(R::A + p * D + q) * g.r[q];
@@ -58,8 +58,8 @@ struct ForcePairs {
 
  private:
   template <class V, class Fields>
-  [[gnu::always_inline]] PIOLA_FN void add_viscosity(Lanes (&sum)[sums], Own<V> const& own,
-                                                     PairGeometry<D, Lanes> const& g, Fields const& f) const {
+  PIOLA_INLINE_FN void add_viscosity(Lanes (&sum)[sums], Own<V> const& own, PairGeometry<D, Lanes> const& g,
+                                     Fields const& f) const {
     Vec<D, Lanes> x, w;
     for (int k = 0; k < D; ++k) {
       x[k] = g.r[k] + (f(R::u + k) - own.u[k]);

@@ -46,7 +46,7 @@ struct DeformPairs {
     V viscosity;
   };
   template <class V>
-  [[gnu::always_inline]] PIOLA_FN static Own<V> own_at(RecordPlace const& p) {
+  PIOLA_INLINE_FN static Own<V> own_at(RecordPlace const& p) {
     Own<V> own;
     for (int c = 0; c < D; ++c) {
       own.u[c] = load_local<V>(p, R::u + c);
@@ -57,8 +57,8 @@ struct DeformPairs {
   }
 
   template <class V, class Fields>
-  [[gnu::always_inline]] PIOLA_FN void add(Lanes (&sum)[sums], Own<V> const& own, PairGeometry<D, Lanes> const& g,
-                                           Fields const& f) const {
+  PIOLA_INLINE_FN void add(Lanes (&sum)[sums], Own<V> const& own, PairGeometry<D, Lanes> const& g,
+                           Fields const& f) const {
     Vec<D, Lanes> u, w;
     for (int c = 0; c < D; ++c) {
       u[c] = f(R::u + c) - own.u[c];
@@ -92,10 +92,9 @@ struct DeformPairs {
 
  private:
   template <class V>
-  [[gnu::always_inline]] PIOLA_FN void add_central(Lanes (&sum)[sums], Own<V> const& own,
-                                                   PairGeometry<D, Lanes> const& g, Vec<D, Lanes> const& u,
-                                                   Vec<D, Lanes> const& w, Lanes const& weight,
-                                                   Lanes const& viscosity) const {
+  PIOLA_INLINE_FN void add_central(Lanes (&sum)[sums], Own<V> const& own, PairGeometry<D, Lanes> const& g,
+                                   Vec<D, Lanes> const& u, Vec<D, Lanes> const& w, Lanes const& weight,
+                                   Lanes const& viscosity) const {
     Vec<D, Lanes> const x = g.r + u;
     Lanes const closing = select(weight > 0.0, minimum(dot(w, x), Lanes(0.0)), Lanes(0.0));
     Lanes const share = 1.0 / (dot(x, x) + b.core), speed = (b.h * closing) * share;
@@ -241,8 +240,7 @@ struct Deform {
   }
 
   /// Stores the results of leave_out_others(): sums of force, heat and hourglass power, and the squared distance.
-  [[gnu::always_inline]] PIOLA_FN void correct_for_others(Index i, Lanes const (&sum)[D + 2],
-                                                          Lanes const& farthest) const {
+  PIOLA_INLINE_FN void correct_for_others(Index i, Lanes const (&sum)[D + 2], Lanes const& farthest) const {
     PairConstants const& b = pairs.b;
     double a[whole(D + 2)];
     add_lanes(sum, a);

@@ -48,7 +48,7 @@ struct Kernel {
   PIOLA_FN double operator()(double r) const { return norm * w(r * inverse_h); }
   /// s = -W'(r)/r, so that grad_a W_ab = s (x_b - x_a), and W.
   template <class T>
-  [[gnu::always_inline]] PIOLA_FN void evaluate(T const& square, T& s, T& W) const {
+  PIOLA_INLINE_FN void evaluate(T const& square, T& s, T& W) const {
     T const inverse_r = inverse_square_root(maximum(square, T(1e-300)));
     T const q = square * (inverse_r * inverse_h), scaled = (-norm * inverse_h) * inverse_r;
     s = dw(q) * scaled;
@@ -57,14 +57,14 @@ struct Kernel {
 
  private:
   template <class T>
-  [[gnu::always_inline]] PIOLA_FN static T w(T const& q) {
+  PIOLA_INLINE_FN static T w(T const& q) {
     if constexpr (requires { Shape::w(D, q); })
       return Shape::w(D, q);
     else
       return Shape::w(q);
   }
   template <class T>
-  [[gnu::always_inline]] PIOLA_FN static T dw(T const& q) {
+  PIOLA_INLINE_FN static T dw(T const& q) {
     if constexpr (requires { Shape::dw(D, q); })
       return Shape::dw(D, q);
     else
@@ -74,10 +74,10 @@ struct Kernel {
 
 /// Zeros to start sums from; the argument is any finite number. The compiler cannot see that they are zeros; otherwise
 /// it would also write them to memory that is never read.
-[[gnu::always_inline]] PIOLA_FN Lanes zeros_from(double finite) { return Lanes(finite - finite); }
+PIOLA_INLINE_FN Lanes zeros_from(double finite) { return Lanes(finite - finite); }
 
 template <int D>
-[[gnu::always_inline]] PIOLA_FN Vec<D, Lanes> difference(Lanes const* there, int at, double const* here) {
+PIOLA_INLINE_FN Vec<D, Lanes> difference(Lanes const* there, int at, double const* here) {
   Vec<D, Lanes> r;
   for (int c = 0; c < D; ++c) r[c] = there[at + c] - here[at + c];
   return r;

@@ -66,9 +66,8 @@ struct SpatialSweep {
     store(target, sum);
   }
 
-  [[gnu::always_inline]] PIOLA_FN void add_pairs(double const* own, Index const* list, Lanes const* f,
-                                                 BodyConstants const& b, Kernel<D, Shape> const& kernel,
-                                                 double inverse_reference, Accumulated& sum) const {
+  PIOLA_INLINE_FN void add_pairs(double const* own, Index const* list, Lanes const* f, BodyConstants const& b,
+                                 Kernel<D, Shape> const& kernel, double inverse_reference, Accumulated& sum) const {
     Vec<D, Lanes> const r = difference<D>(f, R::x, own), w = difference<D>(f, R::v, own);
     Lanes const square = dot(r, r);
     Lanes s, W;
@@ -108,8 +107,7 @@ struct SpatialSweep {
   }
 
   /// Component i of M_b g + m_b W: minus t_ba over V_a.
-  [[gnu::always_inline]] PIOLA_FN static Lanes reaction(Lanes const* f, Vec<D, Lanes> const& r, Lanes const& s,
-                                                        Lanes const& W, int i) {
+  PIOLA_INLINE_FN static Lanes reaction(Lanes const* f, Vec<D, Lanes> const& r, Lanes const& s, Lanes const& W, int i) {
     Lanes sum = Lanes(0.0);
     for (int j = 0; j < D; ++j) sum += f[R::M + (Corrected ? i * D + j : SymMat<D>::at(i, j))] * r[j];
     sum = s * sum;
@@ -122,7 +120,7 @@ struct SpatialSweep {
     return settings.equations.has_reactions() || own[R::viscosity] > 0;
   }
 
-  [[gnu::always_inline]] PIOLA_FN Lanes mixed_weight(double own, Lanes const& other) const {
+  PIOLA_INLINE_FN Lanes mixed_weight(double own, Lanes const& other) const {
     Lanes const here(own > 0 ? 1.0 : 0.0), there = select(other > 0.0, Lanes(1.0), Lanes(0.0));
     if (settings.mixed_stress == MixedStress::both) return maximum(here, there);
     if (settings.mixed_stress == MixedStress::eulerian_only) return here;
@@ -130,10 +128,9 @@ struct SpatialSweep {
   }
 
   /// As above with plain gradients, gt_ab = -gt_ba = g.
-  [[gnu::always_inline]] PIOLA_FN void add_plain_extra(double const* own, Lanes const* f, Vec<D, Lanes> const& r,
-                                                       Vec<D, Lanes> const& w, Lanes const& Vs, Lanes const& closing,
-                                                       Lanes const& pressure, Lanes const& stress_weight,
-                                                       Accumulated& sum) const {
+  PIOLA_INLINE_FN void add_plain_extra(double const* own, Lanes const* f, Vec<D, Lanes> const& r,
+                                       Vec<D, Lanes> const& w, Lanes const& Vs, Lanes const& closing,
+                                       Lanes const& pressure, Lanes const& stress_weight, Accumulated& sum) const {
     // Over V_a, like the sum Q, which uses the same record entry.
     Lanes const weight = own[R::rho] * f[R::rho] * Vs, push = weight * pressure;
     Lanes power = -1.0 * push * closing;
@@ -159,10 +156,9 @@ struct SpatialSweep {
 
   /// Viscosity and artificial stress: force over m_a, and half its power on the relative velocity. Only these read the
   /// rest of the records.
-  [[gnu::always_inline]] PIOLA_FN void add_extra(double const* own, Index const* list, Lanes const* f,
-                                                 Vec<D, Lanes> const& r, Vec<D, Lanes> const& w, Lanes const& s,
-                                                 Lanes const& W, Lanes const& pressure, Lanes const& stress_weight,
-                                                 Accumulated& sum) const {
+  PIOLA_INLINE_FN void add_extra(double const* own, Index const* list, Lanes const* f, Vec<D, Lanes> const& r,
+                                 Vec<D, Lanes> const& w, Lanes const& s, Lanes const& W, Lanes const& pressure,
+                                 Lanes const& stress_weight, Accumulated& sum) const {
     constexpr int N = 0, n = R::n - R::N, tensor = R::R - R::N, values = R::values(Stressed) - R::N;
     Lanes rest[values];
     load_components<values>(table.record + R::N, R::stride(Stressed), list, rest);
@@ -277,7 +273,7 @@ struct CorrectSpatial {
   }
 
   /// The correction with the sums of visit(). Returns false if it is singular.
-  [[gnu::always_inline]] PIOLA_FN static bool solve(double const (&a)[whole(width)], Correction& trial) {
+  PIOLA_INLINE_FN static bool solve(double const (&a)[whole(width)], Correction& trial) {
     Mat<D> A;
     for (int i = 0; i < D; ++i)
       for (int j = 0; j < D; ++j) A(i, j) = (a[0] * a[1 + 2 * D + i * D + j] - a[1 + i] * a[1 + D + j]) / (a[0] * a[0]);

@@ -172,7 +172,7 @@ struct ContactTable {
   std::uint8_t const* lost = nullptr;  ///< per slot: whether its surface is lost (LostSurfaces)
 
   /// Whether kernel contact acts between two particles, and not surface contact.
-  [[gnu::always_inline]] PIOLA_FN bool acts(KernelContactPair const& between, Index i, Index j) const {
+  PIOLA_INLINE_FN bool acts(KernelContactPair const& between, Index i, Index j) const {
     return !between.surfaces || lost[i] != 0 || lost[j] != 0;
   }
 };

@@ -32,8 +32,8 @@ PIOLA_FN V rotation_of(Mat<3, V> const& L) {
 
 /// closing: (v_b - v_a).r; c: sum of both speeds of sound, rho: sum of both densities. One division for both quotients.
 template <class T>
-[[gnu::always_inline]] PIOLA_FN ViscousPair<T> viscous_pair(double alpha, double beta, double h, T const& closing,
-                                                            T const& square, T const& c, T const& rho) {
+PIOLA_INLINE_FN ViscousPair<T> viscous_pair(double alpha, double beta, double h, T const& closing, T const& square,
+                                            T const& c, T const& rho) {
   T const distance = square + 0.01 * h * h, share = 1.0 / (distance * rho);
   T const mu = h * minimum(closing, T(0.0)) * (rho * share);
   return {mu, (beta * mu - (0.5 * alpha) * c) * mu * (2.0 * (distance * share))};

@@ -16,17 +16,17 @@ struct KernelSums {
   View gathered;
 
   template <class V>
-  PIOLA_FN Vec<1, V> own(Index) const {
+  PIOLA_INLINE_FN Vec<1, V> own(Index) const {
     return {};
   }
   template <bool Masked, class O, class G, class V>
-  PIOLA_FN void pair(V* sum, O const&, G const& g, V const* f) const {
+  PIOLA_INLINE_FN void pair(V* sum, O const&, G const& g, V const* f) const {
     V kernel = g.kernel;
     if constexpr (Masked) kernel = g.weight * kernel;
     sum[0] = sum[0] + kernel * f[0];
   }
   template <bool Masked, class O, class G, class V>
-  PIOLA_FN void outer(V* sum, O const& own, G const& g, V const* f) const {
+  PIOLA_INLINE_FN void outer(V* sum, O const& own, G const& g, V const* f) const {
     pair<Masked>(sum, own, g, f);
   }
 };
@@ -46,7 +46,7 @@ struct Smooth {
   double kappa_filtered;  ///< 0: not the last pass of B
   WriteView q;
 
-  PIOLA_FN void operator()(Index i) const {
+  PIOLA_INLINE_FN void operator()(Index i) const {
     Lanes total[1];
     loader(i, body, total);
     Lanes const scaling = d.scalar<Lanes>(i);

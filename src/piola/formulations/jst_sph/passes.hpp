@@ -32,7 +32,7 @@ struct FirstSums {
     V beta;
   };
   template <class V>
-  PIOLA_FN Own<V> own(Index a) const {
+  PIOLA_INLINE_FN Own<V> own(Index a) const {
     Own<V> r{gathered.vector<fields, V>(a), {}, V(0.0)};
     if constexpr (Smoothed > 0) {
       r.alpha = alpha.vector<D, V>(a);
@@ -42,7 +42,7 @@ struct FirstSums {
   }
 
   template <bool Masked, class O, class G, class V>
-  PIOLA_FN void pair(V* sum, O const& own, G const& g, V const* u_b) const {
+  PIOLA_INLINE_FN void pair(V* sum, O const& own, G const& g, V const* u_b) const {
     for (int i = 0; i < D; ++i) {
       V const du = u_b[i] - own.u[i];
       for (int j = 0; j < D; ++j) sum[i * D + j] = sum[i * D + j] + du * g.sr[j];
@@ -50,7 +50,7 @@ struct FirstSums {
     if constexpr (Smoothed > 0) outer<Masked>(sum, own, g, u_b);
   }
   template <bool Masked, class O, class G, class V>
-  PIOLA_FN void outer(V* sum, O const& own, G const& g, V const* u_b) const {
+  PIOLA_INLINE_FN void outer(V* sum, O const& own, G const& g, V const* u_b) const {
     V l = g.l + own.beta * g.r2;
     for (int i = 0; i < D; ++i) l = l + own.alpha[i] * g.r[i];
     if constexpr (Masked) l = g.weight * l;
@@ -65,7 +65,7 @@ struct DifferentiateVelocity {
   Loader loader;
   FirstSums<D, Smoothed> body;
 
-  PIOLA_FN void operator()(Index i, exec::Scratch const& out) const {
+  PIOLA_INLINE_FN void operator()(Index i, exec::Scratch const& out) const {
     Lanes sum[sums];
     loader(i, body, sum);
     for (int c = 0; c < sums; ++c) store(sum[c], out.at(i, c));
@@ -74,7 +74,7 @@ struct DifferentiateVelocity {
 
 /// spin cross a for a spin of three components.
 template <int D>
-PIOLA_FN Vec<D, Lanes> turned(double const (&spin)[3], Vec<D, Lanes> const& a) {
+PIOLA_INLINE_FN Vec<D, Lanes> turned(double const (&spin)[3], Vec<D, Lanes> const& a) {
   Vec<D, Lanes> r;
   if constexpr (D == 3) {
     r = {{spin[1] * a[2] - spin[2] * a[1], spin[2] * a[0] - spin[0] * a[2], spin[0] * a[1] - spin[1] * a[0]}};
@@ -88,7 +88,7 @@ PIOLA_FN Vec<D, Lanes> turned(double const (&spin)[3], Vec<D, Lanes> const& a) {
 
 /// The raw velocity gradient from the first sweep, in scratch.
 template <int D>
-PIOLA_FN Mat<D, Lanes> raw_gradient(exec::Scratch const& in, Index i) {
+PIOLA_INLINE_FN Mat<D, Lanes> raw_gradient(exec::Scratch const& in, Index i) {
   Mat<D, Lanes> raw;
   for (int c = 0; c < D * D; ++c) raw.c[c] = load<Lanes>(in.at(i, c));
   return raw;
@@ -115,7 +115,7 @@ struct SecondSums {
     V beta;
   };
   template <class V>
-  PIOLA_FN Own<V> own(Index a) const {
+  PIOLA_INLINE_FN Own<V> own(Index a) const {
     if constexpr (B == Biharmonic::literal)
       return {gathered.vector<Smoothed, V>(a), alpha.vector<D, V>(a), beta.scalar<V>(a)};
     else
@@ -123,14 +123,14 @@ struct SecondSums {
   }
 
   template <bool Masked, class O, class G, class V>
-  PIOLA_FN void pair(V* sum, O const& own, G const& g, V const* f) const {
+  PIOLA_INLINE_FN void pair(V* sum, O const& own, G const& g, V const* f) const {
     V const* const A = f + outer_fields;
     for (int i = 0; i < D; ++i)
       for (int j = 0; j < D; ++j) sum[i] = sum[i] + A[i * D + j] * g.sr[j];
     if constexpr (laplacian) outer<Masked>(sum, own, g, f);
   }
   template <bool Masked, class O, class G, class V>
-  PIOLA_FN void outer(V* sum, O const& own, G const& g, V const* f) const {
+  PIOLA_INLINE_FN void outer(V* sum, O const& own, G const& g, V const* f) const {
     V l = g.l;
     if constexpr (adjoint) {
       l = l + f[Smoothed + D] * g.r2;
@@ -158,7 +158,7 @@ inline constexpr int spins = D == 3   ? 3
 
 /// x cross f, D = 3: a vector; D = 2: its component out of the plane.
 template <int D, class T>
-PIOLA_FN void add_moment(T* sum, T const& weight, Vec<D, T> const& x, Vec<D, T> const& f) {
+PIOLA_INLINE_FN void add_moment(T* sum, T const& weight, Vec<D, T> const& x, Vec<D, T> const& f) {
   if constexpr (D == 3) {
     Vec<3, T> const m = cross(x, f);
     for (int c = 0; c < 3; ++c) sum[c] = sum[c] + weight * m[c];
@@ -179,8 +179,8 @@ struct MotionTotals {
 
 /// Adds position x and velocity v of a particle to the sums.
 template <int D>
-PIOLA_FN void add_motion(Lanes const& volume, Constants const& k, Vec<D, Lanes> const& x, Vec<D, Lanes> const& v,
-                         Lanes* total) {
+PIOLA_INLINE_FN void add_motion(Lanes const& volume, Constants const& k, Vec<D, Lanes> const& x, Vec<D, Lanes> const& v,
+                                Lanes* total) {
   using At = MotionTotals<D>;
   Vec<D, Lanes> arm = x;
   for (int c = 0; c < D; ++c) arm[c] = x[c] - k.centre[c];
@@ -202,7 +202,7 @@ struct SumMotion {
   Constants k;
   ReferenceView V;
   View x, v;
-  PIOLA_FN void operator()(Index i, Lanes* total) const {
+  PIOLA_INLINE_FN void operator()(Index i, Lanes* total) const {
     add_motion<D>(V.scalar<Lanes>(i), k, x.vector<D, Lanes>(i), v.vector<D, Lanes>(i), total);
   }
 };
@@ -239,7 +239,7 @@ struct SumForces {
   WriteView J_rate;  ///< D(J); without data unless Smoothed > D
   View J_rate_in;    ///< D2 of J
 
-  PIOLA_FN void operator()(Index i, Lanes* total) const {
+  PIOLA_INLINE_FN void operator()(Index i, Lanes* total) const {
     Lanes sum[Body::sums];
     loader(i, body, sum);
     auto const volume = V.scalar<Lanes>(i);
@@ -259,7 +259,7 @@ struct SumForces {
   }
 
  private:
-  PIOLA_FN Vec<D, Lanes> stabilisation(Index i, Lanes const* sum, Lanes const& inverse_volume) const {
+  PIOLA_INLINE_FN Vec<D, Lanes> stabilisation(Index i, Lanes const* sum, Lanes const& inverse_volume) const {
     Vec<D, Lanes> a;
     for (int c = 0; c < D; ++c) {
       a[c] = Lanes(0.0);
@@ -271,15 +271,15 @@ struct SumForces {
     return a;
   }
   /// D4 of smoothed value c.
-  PIOLA_FN Lanes biharmonic(Index i, Lanes const* sum, Lanes const& inverse_volume, int c) const {
+  PIOLA_INLINE_FN Lanes biharmonic(Index i, Lanes const* sum, Lanes const& inverse_volume, int c) const {
     Lanes const L = sum[D + c];
     if constexpr (Body::adjoint) return -(inverse_volume * (L - w.scalar<Lanes>(i, c) * diagonal.scalar<Lanes>(i)));
     double const eps4 = c < D ? k.eps4 : k.eps4_J;
     return -((eps4 * k.h_min * k.h_min * k.h_min) * wave_speed.scalar<Lanes>(i) * L);
   }
 
-  PIOLA_FN void add(Index i, Lanes const& volume, Vec<D, Lanes> const& a_T, Vec<D, Lanes> const& a_D,
-                    Lanes* total) const {
+  PIOLA_INLINE_FN void add(Index i, Lanes const& volume, Vec<D, Lanes> const& a_T, Vec<D, Lanes> const& a_D,
+                           Lanes* total) const {
     Vec<D, Lanes> const place = x.vector<D, Lanes>(i), velocity = v.vector<D, Lanes>(i);
     add_motion<D>(volume, k, place, velocity, total);
     Vec<D, Lanes> arm = place;
@@ -305,7 +305,7 @@ struct AdvanceMomentum {
   View rate, v, v_n, x;
   WriteView v_out, v_n_out, x_out, u_out;
 
-  PIOLA_FN void operator()(Index i) const {
+  PIOLA_INLINE_FN void operator()(Index i) const {
     Vec<D, Lanes> const old_x = x.vector<D, Lanes>(i), now = v.vector<D, Lanes>(i);
     Vec<D, Lanes> a = rate.vector<D, Lanes>(i);
     add_rigid(old_x, a);
@@ -322,7 +322,7 @@ struct AdvanceMomentum {
   }
 
  private:
-  PIOLA_FN void add_rigid(Vec<D, Lanes> const& x_a, Vec<D, Lanes>& a) const {
+  PIOLA_INLINE_FN void add_rigid(Vec<D, Lanes> const& x_a, Vec<D, Lanes>& a) const {
     Vec<D, Lanes> arm = x_a;
     for (int c = 0; c < D; ++c) arm[c] = x_a[c] - rigid.centre[c];
     for (int c = 0; c < D; ++c) a[c] = a[c] + rigid.push[c];
@@ -334,7 +334,7 @@ struct AdvanceMomentum {
 struct LargestWaveSpeed {
   View wave_speed;
   double* partial;
-  PIOLA_FN void operator()(Range b, Index k) const {
+  PIOLA_INLINE_FN void operator()(Range b, Index k) const {
     Lanes largest(0.0);
     for (Index i = b.first; i < b.last; i += lane_count) largest = maximum(largest, wave_speed.scalar<Lanes>(i));
     double most = 0;
@@ -349,7 +349,7 @@ struct HoldSupports {
   SupportComponent* supports;
   View v;
   WriteView v_out, x;
-  PIOLA_FN void operator()(Index k) const {
+  PIOLA_INLINE_FN void operator()(Index k) const {
     SupportComponent& s = supports[k];
     auto const now = v.scalar<double>(s.slot, s.component);
     (second ? s.at_end : s.at_start) = (second ? -1 : -0.5) * now;

@@ -8,7 +8,7 @@
 namespace piola::jst_sph::inline PIOLA_BACKEND {
 
 /// Records the lanes whose volume ratio is not positive, or NaN. Code 1: det F, code 2: the evolved J.
-PIOLA_FN void record_inverted(FailureSlot* failure, Index i, Lanes const& J, int code = 1) {
+PIOLA_INLINE_FN void record_inverted(FailureSlot* failure, Index i, Lanes const& J, int code = 1) {
   auto const good = J > 0.0;
   if (!any(!good)) return;
   for (int l = 0; l < lane_count; ++l)
@@ -24,14 +24,14 @@ struct EvolvedGeometry {
 /// Smallest principal stretch of a D-dimensional body, squared. In one dimension two stretches are 1, and the smallest
 /// of a double root would have the square root of the round-off.
 template <int D>
-PIOLA_FN Lanes smallest_stretch_squared_in(Mat<3, Lanes> const& F) {
+PIOLA_INLINE_FN Lanes smallest_stretch_squared_in(Mat<3, Lanes> const& F) {
   if constexpr (D == 1) return minimum(F(0, 0) * F(0, 0), Lanes(1.0));
   return smallest_stretch_squared(F);
 }
 
 /// The authors' estimate of c_p: c_p0 / lambda_min.
 template <int D>
-PIOLA_FN Lanes estimated_wave_speed(Constants const& k, Mat<3, Lanes> const& F) {
+PIOLA_INLINE_FN Lanes estimated_wave_speed(Constants const& k, Mat<3, Lanes> const& F) {
   return k.c_p0 / square_root(maximum(smallest_stretch_squared_in<D>(F), Lanes(1e-12)));
 }
 
@@ -65,7 +65,7 @@ struct UpdateStress {
   WriteView F_out, A, w, rate, J_rate, wave_speed_next;
   FailureSlot* failure;
 
-  PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
+  PIOLA_INLINE_FN void operator()(Index i, exec::Scratch const& in) const {
     Mat<D, Lanes> const gradient = raw_gradient<D>(in, i) * C.symmetric<D, Lanes>(i);
     Lanes const volume = V.scalar<Lanes>(i);
     Mat<D, Lanes> const F = deform(i, gradient, volume);
@@ -76,7 +76,7 @@ struct UpdateStress {
 
  private:
   /// Returns the F at which stress is evaluated; stores the F of the stage and derived values.
-  PIOLA_FN Mat<D, Lanes> deform(Index i, Mat<D, Lanes> const& gradient, Lanes const& volume) const {
+  PIOLA_INLINE_FN Mat<D, Lanes> deform(Index i, Mat<D, Lanes> const& gradient, Lanes const& volume) const {
     Mat<D, Lanes> F = gradient;
     // Empty slots must stay finite: their values meet zero weights.
     for (int c = 0; c < D; ++c) F(c, c) = select(volume > 0.0, F(c, c), Lanes(1.0));
@@ -94,12 +94,13 @@ struct UpdateStress {
     return F;
   }
 
-  PIOLA_FN Mat<3, Lanes> stress(Index i, Mat<3, Lanes> const& F, Mat<D, Lanes> const& gradient) const {
+  PIOLA_INLINE_FN Mat<3, Lanes> stress(Index i, Mat<3, Lanes> const& F, Mat<D, Lanes> const& gradient) const {
     return evolves_volume(k.variables) ? stress_of_evolved(i, F, gradient) : law.first_piola(F);
   }
 
   /// P of evolved F, H and J, which the stage advances.
-  PIOLA_FN Mat<3, Lanes> stress_of_evolved(Index i, Mat<3, Lanes> const& F, Mat<D, Lanes> const& gradient) const {
+  PIOLA_INLINE_FN Mat<3, Lanes> stress_of_evolved(Index i, Mat<3, Lanes> const& F,
+                                                  Mat<D, Lanes> const& gradient) const {
     Mat<3, Lanes> const F_dot = embed_rate<D>(gradient);
     Mat<3, Lanes> H;
     if (k.variables == Variables::pFHJ) {
@@ -123,7 +124,7 @@ struct UpdateStress {
     return law.stress(F, H, J);
   }
 
-  PIOLA_FN void stabilise(Index i, exec::Scratch const& in) const {
+  PIOLA_INLINE_FN void stabilise(Index i, exec::Scratch const& in) const {
     Lanes const c = wave_speed.scalar<Lanes>(i);
     for (int j = 0; j < Smoothed; ++j) {
       double const eps2 = j < D ? k.eps2 : k.eps2_J;
@@ -146,7 +147,7 @@ struct ComputeWaveSpeed {
   Constants k;
   View F;
   WriteView wave_speed;
-  PIOLA_FN void operator()(Index i) const {
+  PIOLA_INLINE_FN void operator()(Index i) const {
     wave_speed.scalar(i, wave_speed_of<D>(law, k, embed<D>(F.matrix<D, Lanes>(i))));
   }
 };
@@ -165,7 +166,7 @@ template <int D>
 struct StoreDeformation {
   ReferenceView C;
   WriteView F;
-  PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
+  PIOLA_INLINE_FN void operator()(Index i, exec::Scratch const& in) const {
     F.matrix<D>(i, raw_gradient<D>(in, i) * C.symmetric<D, Lanes>(i));
   }
 };
@@ -176,7 +177,7 @@ struct AdvanceVolume {
   View next, rate;
   WriteView J;
   FailureSlot* failure;
-  PIOLA_FN void operator()(Index i) const {
+  PIOLA_INLINE_FN void operator()(Index i) const {
     Lanes const value = next.scalar<Lanes>(i) + time * (rate.scalar<Lanes>(i) - mean);
     record_inverted(failure, i, value, 2);
     J.scalar(i, value);

@@ -17,7 +17,7 @@ struct KickAndDrift {
   View v, x;
   WriteView v_out, x_out;
 
-  PIOLA_FN void operator()(Index i, Lanes* total) const {
+  PIOLA_INLINE_FN void operator()(Index i, Lanes* total) const {
     Vec<D, Lanes> const half = v.vector<D, Lanes>(i) + (0.5 * dt) * rate.vector<D, Lanes>(i);
     Vec<D, Lanes> const moved = x.vector<D, Lanes>(i) + dt * half;
     v_out.vector<D>(i, half);
@@ -43,7 +43,7 @@ struct Deform {
   WriteView filter_source;  ///< neighbour data of the first filter pass: g = d V J
   FailureSlot* failure;
 
-  PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
+  PIOLA_INLINE_FN void operator()(Index i, exec::Scratch const& in) const {
     Mat<D, Lanes> const gradient = raw_gradient<D>(in, i) * C.symmetric<D, Lanes>(i);
     Mat<D, Lanes> const next = F_in.matrix<D, Lanes>(i) + dt * gradient;
     F.matrix<D>(i, next);
@@ -64,7 +64,7 @@ struct Deform {
   }
 
  private:
-  PIOLA_FN void stabilise(Index i, exec::Scratch const& in, Lanes const& c) const {
+  PIOLA_INLINE_FN void stabilise(Index i, exec::Scratch const& in, Lanes const& c) const {
     Vec<D, Lanes> Lv, Lx;
     for (int j = 0; j < D; ++j) {
       Lv[j] = load<Lanes>(in.at(i, D * D + j));
@@ -87,13 +87,13 @@ struct WeightStress {
   View F, volume_ratio, filtered_pressure;
   WriteView A;
 
-  PIOLA_FN void operator()(Index i) const {
+  PIOLA_INLINE_FN void operator()(Index i) const {
     Mat<D, Lanes> const P = restrict_to<D>(stress(i, embed<D>(F.matrix<D, Lanes>(i))));
     A.matrix<D>(i, (V.scalar<Lanes>(i) * (1.0 / k.kernel_volume)) * (P * C.symmetric<D, Lanes>(i)));
   }
 
  private:
-  PIOLA_FN Mat<3, Lanes> stress(Index i, Mat<3, Lanes> const& full) const {
+  PIOLA_INLINE_FN Mat<3, Lanes> stress(Index i, Mat<3, Lanes> const& full) const {
     if constexpr (Law::volumetric_split) {
       if (k.kappa_filtered > 0) {
         Lanes const p = k.kappa_local * (volume_ratio.scalar<Lanes>(i) - 1.0) + filtered_pressure.scalar<Lanes>(i);
@@ -109,7 +109,7 @@ template <int D, class Law>
 struct DeformAndWeightStress {
   Deform<D> deform;
   WeightStress<D, Law> stress;
-  PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
+  PIOLA_INLINE_FN void operator()(Index i, exec::Scratch const& in) const {
     deform(i, in);
     stress(i);
   }
@@ -123,7 +123,7 @@ struct Kick {
   View rate, v, x;
   WriteView rate_out, v_out;
 
-  PIOLA_FN void operator()(Index i) const {
+  PIOLA_INLINE_FN void operator()(Index i) const {
     Vec<D, Lanes> arm = x.vector<D, Lanes>(i), push;
     for (int c = 0; c < D; ++c) {
       arm[c] = arm[c] - rigid.centre[c];
@@ -142,7 +142,7 @@ struct HoldVelocity {
   SupportComponent* supports;
   View v, rate;
   WriteView v_out, rate_out;
-  PIOLA_FN void operator()(Index k) const {
+  PIOLA_INLINE_FN void operator()(Index k) const {
     SupportComponent& s = supports[k];
     if (!trial) {
       s.at_start = 0.5 * dt * s.removed;

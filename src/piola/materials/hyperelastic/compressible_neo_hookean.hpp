@@ -26,30 +26,30 @@ struct CompressibleNeoHookean : ElasticConstants {
 
   /// P of F, H and J as unknowns of their own (eq. 12; S_H = 0) [Pa].
   template <class T>
-  PIOLA_FN Mat<3, T> stress(Mat<3, T> const& F, Mat<3, T> const& H, T const& J) const {
+  PIOLA_INLINE_FN Mat<3, T> stress(Mat<3, T> const& F, Mat<3, T> const& H, T const& J) const {
     return mu * F + T((lambda * logarithm(J) - mu) / J) * H;
   }
   /// P(F) [Pa].
   template <class T>
-  PIOLA_FN Mat<3, T> first_piola(Mat<3, T> const& F) const {
+  PIOLA_INLINE_FN Mat<3, T> first_piola(Mat<3, T> const& F) const {
     Mat<3, T> const H = cofactor(F);
     T const J = F(0, 0) * H(0, 0) + F(0, 1) * H(0, 1) + F(0, 2) * H(0, 2);
     return stress(F, H, J);
   }
   /// Stored energy per reference volume of F, H and J as unknowns of their own [J/m^3].
   template <class T>
-  PIOLA_FN T energy(Mat<3, T> const& F, Mat<3, T> const&, T const& J) const {
+  PIOLA_INLINE_FN T energy(Mat<3, T> const& F, Mat<3, T> const&, T const& J) const {
     T const volume = logarithm(J);
     return (0.5 * mu) * (contract(F, F) - 3.0) + volume * (0.5 * lambda * volume - mu);
   }
   /// Stored energy per reference volume [J/m^3].
   template <class T>
-  PIOLA_FN T energy(Mat<3, T> const& F) const {
+  PIOLA_INLINE_FN T energy(Mat<3, T> const& F) const {
     return energy(F, F, determinant(F));
   }
   /// Mean Cauchy stress, positive in tension [Pa].
   template <class T>
-  PIOLA_FN T pressure(Mat<3, T> const& F) const {
+  PIOLA_INLINE_FN T pressure(Mat<3, T> const& F) const {
     T const J = determinant(F);
     return (mu * ((1.0 / 3.0) * contract(F, F) - 1.0) + lambda * logarithm(J)) / J;
   }

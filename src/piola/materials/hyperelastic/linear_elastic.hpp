@@ -25,7 +25,7 @@ struct LinearElastic : VolumetricSplit<LinearElastic> {
   /// P with the pressure p given, for schemes that do not take it from this F alone. In small strain H is the identity
   /// and J its own volume ratio 1 + tr e, whatever is given.
   template <class T>
-  PIOLA_FN Mat<3, T> stress_with_pressure(Mat<3, T> const& F, Mat<3, T> const&, T const&, T const& p) const {
+  PIOLA_INLINE_FN Mat<3, T> stress_with_pressure(Mat<3, T> const& F, Mat<3, T> const&, T const&, T const& p) const {
     Mat<3, T> P = mu * (F + transpose(F));
     T const diagonal = p - (2.0 / 3.0) * mu * trace(F);
     for (int i = 0; i < 3; ++i) P(i, i) = P(i, i) + diagonal;
@@ -33,7 +33,7 @@ struct LinearElastic : VolumetricSplit<LinearElastic> {
   }
   /// The part of the energy that a change of volume alone does not touch.
   template <class T>
-  PIOLA_FN T isochoric_energy(Mat<3, T> const& F, Mat<3, T> const&, T const&) const {
+  PIOLA_INLINE_FN T isochoric_energy(Mat<3, T> const& F, Mat<3, T> const&, T const&) const {
     Mat<3, T> const e = 0.5 * (F + transpose(F)) - identity<3, T>();
     T const volume = trace(e);
     return mu * (contract(e, e) - (1.0 / 3.0) * (volume * volume));
@@ -41,7 +41,7 @@ struct LinearElastic : VolumetricSplit<LinearElastic> {
   /// D : d = lambda tr(d) 1 + 2 mu d: the rate of the Cauchy stress in a frame that turns with the material, for a rate
   /// of deformation d (Serroukh and Mabssout 2022, eq. 2) [Pa/s].
   template <class T>
-  PIOLA_FN SymMat<3, T> stress_rate(SymMat<3, T> const& d) const {
+  PIOLA_INLINE_FN SymMat<3, T> stress_rate(SymMat<3, T> const& d) const {
     SymMat<3, T> r;
     T const volume = lambda * (d.c[0] + d.c[1] + d.c[2]);
     for (int c = 0; c < 6; ++c) r.c[c] = 2 * mu * d.c[c];
@@ -50,7 +50,7 @@ struct LinearElastic : VolumetricSplit<LinearElastic> {
   }
   /// Energy per volume that a stress stores, 1/2 sigma : D^-1 : sigma [J/m^3].
   template <class T>
-  PIOLA_FN T energy_of_stress(SymMat<3, T> const& s) const {
+  PIOLA_INLINE_FN T energy_of_stress(SymMat<3, T> const& s) const {
     T const sum = s.c[0] + s.c[1] + s.c[2];
     T square = s.c[0] * s.c[0] + s.c[1] * s.c[1] + s.c[2] * s.c[2];
     for (int c = 3; c < 6; ++c) square = square + 2.0 * (s.c[c] * s.c[c]);

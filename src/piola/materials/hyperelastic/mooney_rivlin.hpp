@@ -29,14 +29,14 @@ struct MooneyRivlin : VolumetricSplit<MooneyRivlin> {
   double xi;    ///< coefficient of (H:H)^(3/2) [Pa]
 
   /// values: density, Young's modulus, Poisson's ratio, c10_fraction.
-  PIOLA_FN explicit MooneyRivlin(double const* values)
+  PIOLA_INLINE_FN explicit MooneyRivlin(double const* values)
       : VolumetricSplit(values), zeta(0.5 * values[3] * mu), xi((1 - values[3]) * mu / three_root_three) {}
 
   using VolumetricSplit::isochoric_energy;
   using VolumetricSplit::stress_with_pressure;
   /// P of F, H and J as unknowns (eq. 12) with the pressure p given.
   template <class T>
-  PIOLA_FN Mat<3, T> stress_with_pressure(Mat<3, T> const& F, Mat<3, T> const& H, T const& J, T const& p) const {
+  PIOLA_INLINE_FN Mat<3, T> stress_with_pressure(Mat<3, T> const& F, Mat<3, T> const& H, T const& J, T const& p) const {
     T const a = power_minus_third(J), per_J = 1.0 / J, area = contract(H, H);
     T const of_F = (2.0 * zeta) * (a * a), of_H = (3.0 * xi) * (per_J * per_J) * square_root(area);
     T const of_J = p - (1.0 / 3.0) * per_J * (of_F * contract(F, F) + 2.0 * (of_H * area));
@@ -44,7 +44,7 @@ struct MooneyRivlin : VolumetricSplit<MooneyRivlin> {
   }
   /// The part of the energy that a change of volume alone does not touch.
   template <class T>
-  PIOLA_FN T isochoric_energy(Mat<3, T> const& F, Mat<3, T> const& H, T const& J) const {
+  PIOLA_INLINE_FN T isochoric_energy(Mat<3, T> const& F, Mat<3, T> const& H, T const& J) const {
     T const a = power_minus_third(J), area = contract(H, H);
     return zeta * (a * a * contract(F, F) - 3.0) + xi * (area * square_root(area) / (J * J) - three_root_three);
   }

@@ -22,7 +22,7 @@ struct NeoHookean : VolumetricSplit<NeoHookean> {
   using VolumetricSplit::stress_with_pressure;
   /// P of F, H and J as unknowns (eq. 12) with the pressure p given.
   template <class T>
-  PIOLA_FN Mat<3, T> stress_with_pressure(Mat<3, T> const& F, Mat<3, T> const& H, T const& J, T const& p) const {
+  PIOLA_INLINE_FN Mat<3, T> stress_with_pressure(Mat<3, T> const& F, Mat<3, T> const& H, T const& J, T const& p) const {
     T const a = power_minus_third(J);
     T const shear = mu * (a * a);
     T const along_H = p - shear * contract(F, F) / (3.0 * J);
@@ -30,7 +30,7 @@ struct NeoHookean : VolumetricSplit<NeoHookean> {
   }
   /// The part of the energy that a change of volume alone does not touch.
   template <class T>
-  PIOLA_FN T isochoric_energy(Mat<3, T> const& F, Mat<3, T> const&, T const& J) const {
+  PIOLA_INLINE_FN T isochoric_energy(Mat<3, T> const& F, Mat<3, T> const&, T const& J) const {
     T const a = power_minus_third(J);
     return 0.5 * mu * (a * a * contract(F, F) - 3.0);
   }

@@ -22,7 +22,7 @@ struct SaintVenantKirchhoff : ElasticConstants {
 
   /// P(F) [Pa].
   template <class T>
-  PIOLA_FN Mat<3, T> first_piola(Mat<3, T> const& F) const {
+  PIOLA_INLINE_FN Mat<3, T> first_piola(Mat<3, T> const& F) const {
     Mat<3, T> S = green_strain(F);
     T const volume = lambda * trace(S);
     S = (2.0 * mu) * S;
@@ -31,23 +31,23 @@ struct SaintVenantKirchhoff : ElasticConstants {
   }
   /// As first_piola(): H and J have no energy of their own.
   template <class T>
-  PIOLA_FN Mat<3, T> stress(Mat<3, T> const& F, Mat<3, T> const&, T const&) const {
+  PIOLA_INLINE_FN Mat<3, T> stress(Mat<3, T> const& F, Mat<3, T> const&, T const&) const {
     return first_piola(F);
   }
   /// Stored energy per reference volume [J/m^3].
   template <class T>
-  PIOLA_FN T energy(Mat<3, T> const& F) const {
+  PIOLA_INLINE_FN T energy(Mat<3, T> const& F) const {
     Mat<3, T> const E = green_strain(F);
     T const volume = trace(E);
     return 0.5 * lambda * (volume * volume) + mu * contract(E, E);
   }
   template <class T>
-  PIOLA_FN T energy(Mat<3, T> const& F, Mat<3, T> const&, T const&) const {
+  PIOLA_INLINE_FN T energy(Mat<3, T> const& F, Mat<3, T> const&, T const&) const {
     return energy(F);
   }
   /// Mean Cauchy stress, positive in tension [Pa].
   template <class T>
-  PIOLA_FN T pressure(Mat<3, T> const& F) const {
+  PIOLA_INLINE_FN T pressure(Mat<3, T> const& F) const {
     return contract(first_piola(F), F) / (3.0 * determinant(F));
   }
   /// Largest d2W / dl_i^2 = lambda tr E + (lambda + 3 mu) l_i^2 - mu, from the squares of the principal stretches [Pa].
@@ -58,7 +58,7 @@ struct SaintVenantKirchhoff : ElasticConstants {
 
  private:
   template <class T>
-  PIOLA_FN static Mat<3, T> green_strain(Mat<3, T> const& F) {
+  PIOLA_INLINE_FN static Mat<3, T> green_strain(Mat<3, T> const& F) {
     return 0.5 * (transpose(F) * F - identity<3, T>());
   }
 };
