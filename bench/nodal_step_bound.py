@@ -4,7 +4,8 @@
 
     bench/nodal_step_bound.py [--side 6]     # half a minute; needs numpy
 
-Isotropic elasticity at rest, the energy of docs/theory/nodal.md, section 2, without the correction of section 3.3.
+Isotropic elasticity at rest, the energy of docs/theory/nodal.md, section 2, with the gradients of the fits of section
+3.2 in place of facet fluxes.
 Clouds: a lattice and jittered ones in a box whose opposite sides are one (period), and a free block, whose masses are
 those of its cells. The bound: with a share theta_ab of the mass of b for every cell a that sees it, sum_a theta_ab = 1,
     omega^2 <= max_a (largest eigenvalue of the cell's own stiffness over its shares of mass)

@@ -10,11 +10,11 @@ namespace piola::nodal::inline PIOLA_BACKEND {
 struct LanesOfField {
   double const* data;
   std::ptrdiff_t component_stride;
-  PIOLA_FN Lanes operator[](int c) const { return load<Lanes>(data + c * component_stride); }
+  PIOLA_INLINE_FN Lanes operator[](int c) const { return load<Lanes>(data + c * component_stride); }
 };
-PIOLA_FN LanesOfField lanes_of(View const& v, Index i) {
+PIOLA_INLINE_FN LanesOfField lanes_of(View const& v, Index i) {
   return {v.data + i * v.particle_stride + (i >> tile_bits) * v.tile_extra, v.component_stride};
 }
-PIOLA_FN LanesOfField lanes_of(ReferenceView const& v, Index i) { return lanes_of(v.stored, v.place(i)); }
+PIOLA_INLINE_FN LanesOfField lanes_of(ReferenceView const& v, Index i) { return lanes_of(v.stored, v.place(i)); }
 
 }  // namespace piola::nodal::inline PIOLA_BACKEND

@@ -13,7 +13,7 @@ struct CellPoints {
   Mat<D, Lanes> F;
   Mat<D, Lanes> along[D];  ///< H.(L e_m)
 
-  PIOLA_FN Mat<D, Lanes> at(int q) const {
+  PIOLA_INLINE_FN Mat<D, Lanes> at(int q) const {
     Mat<D, Lanes> r = F;
     for (int m = 0; m < D; ++m) r = Quadratic<D>::point(q, m) > 0 ? r + along[m] : r - along[m];
     return r;

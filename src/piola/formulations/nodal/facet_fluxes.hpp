@@ -8,14 +8,14 @@ namespace piola::nodal {
 
 /// How well the gradients of a body fulfil what they are built for. Errors are round-off in a sound body.
 struct GradientQuality {
-  double closure = 0;   ///< largest component of A_b - sum_a V_a G_ab [faces between two particles]
-  double rows = 0;      ///< largest error of a gradient of a quadratic monomial at the centroid of a cell
-  double steepest = 0;  ///< largest |G_ab| [1/spacing]
-  double enlarged = 0;  ///< particles with a support radius above the usual one
+  double divergence = 0;  ///< largest component of A_b - sum_a V_a G_ab [faces between two particles]
+  double rows = 0;        ///< largest error of a gradient of a quadratic monomial at the centroid of a cell
+  double steepest = 0;    ///< largest |G_ab| [1/spacing]
+  double enlarged = 0;    ///< particles with a support radius above the usual one
 
   /// Reduction over ranks.
   void add(GradientQuality const& other) {
-    comm::max_or_nan(other.closure, closure);
+    comm::max_or_nan(other.divergence, divergence);
     comm::max_or_nan(other.rows, rows);
     comm::max_or_nan(other.steepest, steepest);
     enlarged += other.enlarged;

@@ -18,7 +18,7 @@ struct LatticeSums {
   View stress;  ///< (P, Q), row after row; component after component
 
   /// Component c of F_a and H_a: sum_b (x_b - x_a) (G_ab, K_ab).
-  PIOLA_FN void of_motion(Index i, int c, Lanes (&sum)[numbers]) const {
+  PIOLA_INLINE_FN void of_motion(Index i, int c, Lanes (&sum)[numbers]) const {
     double const* const at = x.data + c * x.component_stride + i;
     double const* gradient = table.motion + first_of(i);
     Lanes const own = load<Lanes>(at);
@@ -31,7 +31,7 @@ struct LatticeSums {
 
   /// Force of the neighbours' stresses: sum_b V_b (P_b G_ba + Q_b K_ba). The sums of every third number are apart:
   /// three chains of additions for each component.
-  PIOLA_FN Vec<D, Lanes> of_stress(Index i) const {
+  PIOLA_INLINE_FN Vec<D, Lanes> of_stress(Index i) const {
     constexpr int chains = numbers % 3 == 0 ? 3 : 1;
     double const* gradient = table.force + first_of(i);
     Lanes sum[D][chains];
@@ -54,7 +54,7 @@ struct LatticeSums {
   }
 
  private:
-  PIOLA_FN std::ptrdiff_t first_of(Index i) const {
+  PIOLA_INLINE_FN std::ptrdiff_t first_of(Index i) const {
     return static_cast<std::ptrdiff_t>(table.group[i / lane_count]) * table.offsets * (numbers * lane_count);
   }
 };

@@ -26,7 +26,7 @@ struct Records {
 #if PIOLA_HAS_PACKS
 /// Four values, of which loops over lists use three.
 using Four [[gnu::vector_size(32)]] = double;
-[[gnu::always_inline]] PIOLA_FN Four load_four(double const* p) {
+PIOLA_INLINE_FN Four load_four(double const* p) {
   Four r;
   std::memcpy(&r, p, sizeof r);
   return r;
@@ -34,7 +34,7 @@ using Four [[gnu::vector_size(32)]] = double;
 /// s p(r) in three vectors, and G.
 struct Coefficients {
   Four c[4];
-  [[gnu::always_inline]] Coefficients(Four const& r, double s, double const* G) {
+  PIOLA_INLINE_FN Coefficients(Four const& r, double s, double const* G) {
     c[0] = s * r;
     c[1] = c[0] * (0.5 * r);
     c[2] = __builtin_shufflevector(c[0], c[0], 1, 0, 0, 3) * __builtin_shufflevector(r, r, 2, 2, 1, 3);
@@ -51,7 +51,7 @@ struct ListSums {
   double const* stress;
 
   /// Rows (T_i, F_i) of width R::width:  T = sum_b s (x_b - x_a) (x) p(r),  F = sum_b (x_b - x_a) (x) G_ab.
-  PIOLA_FN void of_motion(Index a, double* rows) const {
+  PIOLA_INLINE_FN void of_motion(Index a, double* rows) const {
     double const* const own = motion_of(a);
 #if PIOLA_HAS_PACKS
     if constexpr (D == 3) {
@@ -82,7 +82,7 @@ struct ListSums {
   }
 
   /// Force of the neighbours' stresses: sum_b V_b (P_b G_ba + Q_b K_ba).
-  PIOLA_FN Vec<D> of_stress(Index a) const {
+  PIOLA_INLINE_FN Vec<D> of_stress(Index a) const {
     double const* const own = motion_of(a);
     Vec<D> force;
 #if PIOLA_HAS_PACKS
@@ -115,11 +115,15 @@ struct ListSums {
   }
 
  private:
-  PIOLA_FN double const* motion_of(Index a) const { return motion + static_cast<std::ptrdiff_t>(a) * R::motion_size; }
-  PIOLA_FN double const* stress_of(Index a) const { return stress + static_cast<std::ptrdiff_t>(a) * R::stress_size; }
+  PIOLA_INLINE_FN double const* motion_of(Index a) const {
+    return motion + static_cast<std::ptrdiff_t>(a) * R::motion_size;
+  }
+  PIOLA_INLINE_FN double const* stress_of(Index a) const {
+    return stress + static_cast<std::ptrdiff_t>(a) * R::stress_size;
+  }
   /// s p(X_to - X_from), G.
-  PIOLA_FN static void coefficients(double s, double const* from, double const* to, double const* G,
-                                    double (&c)[R::used]) {
+  PIOLA_INLINE_FN static void coefficients(double s, double const* from, double const* to, double const* G,
+                                           double (&c)[R::used]) {
     Vec<D> r;
     for (int i = 0; i < D; ++i) r[i] = to[i] - from[i];
     double p[Quadratic<D>::values];
@@ -131,7 +135,7 @@ struct ListSums {
 
 /// Value c of lane l goes to base[l * stride + c].
 template <int N>
-PIOLA_FN void store_records(double* base, [[maybe_unused]] std::ptrdiff_t stride, Lanes const (&f)[N]) {
+PIOLA_INLINE_FN void store_records(double* base, [[maybe_unused]] std::ptrdiff_t stride, Lanes const (&f)[N]) {
 #if PIOLA_HAS_PACKS
   static_assert(lane_count % 4 == 0, "lanes are those of AVX or wider");
   for (int first = 0; first + 4 <= N; first += 4) {

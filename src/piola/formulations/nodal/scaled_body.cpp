@@ -185,6 +185,43 @@ void continue_behind_planes(ScaledBody& r, MirrorImages const& images) {
   FacetsBehindPlanes{r, images}(surface);
 }
 
+/// From metres to spacings, over an area of one spacing across `axis`.
+void scale(std::array<double, 10>& moments, std::size_t axis, ScaledBody const& body) {
+  double const area = body.h_volume / body.h[axis];
+  for (double& m : moments) m /= area;
+  for (std::size_t c = 0; c < 3; ++c) moments[1 + c] /= body.h[c];
+  for (std::size_t m = 0; m < 6; ++m) moments[4 + m] /= body.h[moment_axis[m][0]] * body.h[moment_axis[m][1]];
+}
+
+ScaledCell scaled(CellMoments const& cell, ScaledBody const& body) {
+  ScaledCell r{cell.volume / body.h_volume, cell.centroid, cell.spread};
+  for (std::size_t c = 0; c < 3; ++c) r.centroid[c] /= body.h[c];
+  for (std::size_t m = 0; m < 6; ++m) r.spread[m] /= body.h[moment_axis[m][0]] * body.h[moment_axis[m][1]];
+  return r;
+}
+
+/// The surface and the facets in slot order, slots by particle of the body.
+void take_surface(BodyCells&& measured, std::vector<Index> const& slot_of, ScaledBody& r) {
+  r.patches = std::move(measured.patch);
+  for (auto& patch : r.patches) {
+    patch.particle = slot_of[static_cast<std::size_t>(patch.particle)];
+    scale(patch.extent, static_cast<std::size_t>(patch.axis), r);
+    for (std::size_t J = 0; J < 3; ++J) scale(patch.moments[J], J, r);
+  }
+  r.facets = std::move(measured.facet);
+  for (auto& facet : r.facets) {
+    Index const a = slot_of[static_cast<std::size_t>(facet.a)], b = slot_of[static_cast<std::size_t>(facet.b)];
+    facet.a = std::min(a, b);
+    facet.b = std::max(a, b);
+    for (std::size_t J = 0; J < 3; ++J) {
+      scale(facet.moments[J], J, r);
+      for (double& m : facet.moments[J]) m *= a < b ? 1 : -1;
+    }
+  }
+  r.farthest_move = measured.farthest_move;
+  r.unmoved = static_cast<double>(measured.unmoved);
+}
+
 }  // namespace
 
 void keep_cells(ScaledBody& body, IndexSet const& of) {
@@ -209,40 +246,11 @@ ScaledBody scaled_body(SetUp const& from) {
     auto const local = static_cast<std::size_t>(id - body.first);
     slot_of[local] = i;
     r.X.push_back(set.X[static_cast<std::size_t>(id)]);
-    auto const& cell = measured.cell[local];
-    r.cells.push_back({cell.volume / r.h_volume, cell.centroid, cell.spread});
-    for (std::size_t c = 0; c < 3; ++c) {
-      r.X.back()[c] /= r.h[c];
-      r.cells.back().centroid[c] /= r.h[c];
-    }
-    for (std::size_t m = 0; m < 6; ++m) r.cells.back().spread[m] /= r.h[moment_axis[m][0]] * r.h[moment_axis[m][1]];
-  }
-  r.patches = std::move(measured.patch);
-  r.farthest_move = measured.farthest_move;
-  r.unmoved = static_cast<double>(measured.unmoved);
-  // Moments over an area of one spacing across `axis`.
-  auto const scale = [&r](std::array<double, 10>& moments, std::size_t axis) {
-    double const area = r.h_volume / r.h[axis];
-    for (double& m : moments) m /= area;
-    for (std::size_t c = 0; c < 3; ++c) moments[1 + c] /= r.h[c];
-    for (std::size_t m = 0; m < 6; ++m) moments[4 + m] /= r.h[moment_axis[m][0]] * r.h[moment_axis[m][1]];
-  };
-  for (auto& patch : r.patches) {
-    patch.particle = slot_of[static_cast<std::size_t>(patch.particle)];
-    scale(patch.extent, static_cast<std::size_t>(patch.axis));
-    for (std::size_t J = 0; J < 3; ++J) scale(patch.moments[J], J);
-  }
-  r.facets = std::move(measured.facet);
-  for (auto& facet : r.facets) {
-    Index const a = slot_of[static_cast<std::size_t>(facet.a)], b = slot_of[static_cast<std::size_t>(facet.b)];
-    facet.a = std::min(a, b);
-    facet.b = std::max(a, b);
-    for (std::size_t J = 0; J < 3; ++J) {
-      scale(facet.moments[J], J);
-      for (double& m : facet.moments[J]) m *= a < b ? 1 : -1;
-    }
+    for (std::size_t c = 0; c < 3; ++c) r.X.back()[c] /= r.h[c];
+    r.cells.push_back(scaled(measured.cell[local], r));
   }
   r.particles = r.X.size();
+  take_surface(std::move(measured), slot_of, r);
   if (from.images != nullptr) continue_behind_planes(r, *from.images);
   return r;
 }

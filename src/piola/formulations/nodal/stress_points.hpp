@@ -24,7 +24,7 @@ struct CellEnergy {
   Lanes J[Points], mean_J, least_J, energy;
 
   /// P and energy from F.
-  PIOLA_FN void operator()() {
+  PIOLA_INLINE_FN void operator()() {
     volume_ratios();
     if constexpr (Law::volumetric_split)
       split();
@@ -35,7 +35,7 @@ struct CellEnergy {
   /// As above if the directions from D on are free of stress, each point by itself: F is completed by the solution.
   /// Nothing locks there, so that every point has the energy of its own volume ratio.
   template <int D>
-  PIOLA_FN void without_lateral_stress() {
+  PIOLA_INLINE_FN void without_lateral_stress() {
     StressFree<D, Law> const relax(law);
     for (int q = 0; q < Points; ++q) relax(F[q]);
     volume_ratios();
@@ -46,7 +46,7 @@ struct CellEnergy {
   }
 
  private:
-  PIOLA_FN void volume_ratios() {
+  PIOLA_INLINE_FN void volume_ratios() {
     mean_J = energy = Lanes(0.0);
     for (int q = 0; q < Points; ++q) {
       J[q] = volume_ratio_of(Law::small_strain, F[q]);
@@ -54,27 +54,27 @@ struct CellEnergy {
       least_J = q == 0 ? J[q] : minimum(least_J, J[q]);
     }
   }
-  PIOLA_FN Mat<3, Lanes> area_map(int q) const {
+  PIOLA_INLINE_FN Mat<3, Lanes> area_map(int q) const {
     if constexpr (Law::small_strain)
       return identity<3, Lanes>();
     else
       return cofactor(F[q]);
   }
   /// Pressure of the logarithm at a point [Pa].
-  PIOLA_FN Lanes spread_pressure(int q) const {
+  PIOLA_INLINE_FN Lanes spread_pressure(int q) const {
     if constexpr (Law::small_strain)
       return kappa_local * (J[q] - mean_J);
     else
       return kappa_local * (1.0 / mean_J - 1.0 / J[q]);
   }
-  PIOLA_FN Lanes spread_energy(int q) const {
+  PIOLA_INLINE_FN Lanes spread_energy(int q) const {
     if constexpr (Law::small_strain)
       return (0.5 * kappa_local) * ((J[q] - mean_J) * (J[q] - mean_J));
     else
       return kappa_local * logarithm(mean_J / J[q]);
   }
 
-  PIOLA_FN void split() {
+  PIOLA_INLINE_FN void split() {
     Lanes const change = mean_J - 1.0;
     for (int q = 0; q < Points; ++q) {
       Mat<3, Lanes> const H = area_map(q);
@@ -85,7 +85,7 @@ struct CellEnergy {
     energy = energy + (0.5 * kappa) * (change * change);
   }
 
-  PIOLA_FN void whole() {
+  PIOLA_INLINE_FN void whole() {
     Lanes work[Points], mean_work = Lanes(0.0), scale[Points];
     for (int q = 0; q < Points; ++q) {
       scale[q] = power_minus_third(J[q] / mean_J);
@@ -118,7 +118,7 @@ struct UpdateStress {
   WriteView stress, a, change, F_out, P_out, cell;
   FailureSlot* failure;
 
-  PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
+  PIOLA_INLINE_FN void operator()(Index i, exec::Scratch const& in) const {
     CellPoints<D> at = gradients(i, in);
     if (offset.data != nullptr) at.F = at.F + offset.matrix<D, Lanes>(i);
     CellEnergy<Law, points, Observed> energy{law, constants.kappa, constants.kappa_local, {}, {}, {}, {}, {}, {}};
@@ -145,7 +145,7 @@ struct UpdateStress {
  private:
   /// Largest change of a component of F^T F / 2 since the last measurement of the step, relative to its value there:
   /// 0.1 is a tenth of a stretch.
-  PIOLA_FN Lanes largest_change(Index i, Mat<D, Lanes> const& F) const {
+  PIOLA_INLINE_FN Lanes largest_change(Index i, Mat<D, Lanes> const& F) const {
     SymMat<D, Lanes> const measured = C_measured.symmetric<D, Lanes>(i);
     Lanes most = Lanes(0.0);
     for (int J = 0; J < D; ++J)
@@ -159,7 +159,7 @@ struct UpdateStress {
       }
     return most;
   }
-  PIOLA_FN CellPoints<D> gradients(Index i, exec::Scratch const& in) const {
+  PIOLA_INLINE_FN CellPoints<D> gradients(Index i, exec::Scratch const& in) const {
     CellPoints<D> r;
     LanesOfField const spread = lanes_of(L, i);
     for (int c = 0; c < D; ++c) {
@@ -175,7 +175,7 @@ struct UpdateStress {
     return r;
   }
 
-  PIOLA_FN void put_stress(Index i, CellEnergy<Law, points, Observed> const& energy) const {
+  PIOLA_INLINE_FN void put_stress(Index i, CellEnergy<Law, points, Observed> const& energy) const {
     LanesOfField const spread = lanes_of(L, i), sums = lanes_of(own, i);
     Lanes const volume = V.scalar<Lanes>(i);
     Mat<D, Lanes> mean, along[D];
@@ -214,7 +214,7 @@ struct UpdateStress {
     for (Lanes& number : row) number = select(load<Lanes>(here) > 0.5, number, Lanes(0.0));
   }
   /// Component c of (P, Q) for lattices; in records of lists (V Q k^T, P), because weights s do not hold the volume.
-  PIOLA_FN void put_row(Index i, int c, Lanes const (&row)[numbers]) const {
+  PIOLA_INLINE_FN void put_row(Index i, int c, Lanes const (&row)[numbers]) const {
     if (stress.particle_stride == 1) {
       for (int n = 0; n < numbers; ++n) stress.scalar(i, row[n], c * numbers + n);
       return;
@@ -259,7 +259,7 @@ struct SubtractGradients {
   View centroid, offset;
   WriteView offset_out;
 
-  PIOLA_FN void operator()(Index i, exec::Scratch const& in) const {
+  PIOLA_INLINE_FN void operator()(Index i, exec::Scratch const& in) const {
     Vec<D, Lanes> const far = centroid.vector<D, Lanes>(i);
     Mat<D, Lanes> r = offset.matrix<D, Lanes>(i);
     for (int c = 0; c < D; ++c)
