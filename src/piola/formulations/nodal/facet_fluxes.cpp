@@ -181,7 +181,7 @@ void FacetFluxes<D>::add_surface(SurfacePatch const& patch) {
     });
 }
 
-/// Of the gradients of the quadratic monomials.
+/// Largest error of the gradients of the quadratic monomials.
 template <int D>
 double FacetFluxes<D>::error_of_row(std::size_t a) const {
   auto const& pairs = fits_.pairs();

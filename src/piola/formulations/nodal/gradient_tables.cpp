@@ -117,10 +117,17 @@ void GradientTables<D>::fill_cell(std::size_t a, double mass) {
   for (std::size_t c = 0; c < L.size(); ++c) to_.L[a * L.size() + c] = parity(a) * L[c];
   for (std::size_t c = 0; c < dimension; ++c) to_.centroid[a * dimension + c] = cell.centroid[c] * scaled_.h[c];
   auto const& pairs = fits_.pairs();
+  double* const own = &to_.own[a * numbers];
+  typename LocalFits<D>::Monomials sum{};  // of s p
   for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
-    Gradient const g = gradient(a, k);
-    for (std::size_t n = 0; n < numbers; ++n) to_.own[a * numbers + n] += g[n];
+    auto const p = fits_.monomials_of(a, pairs.at(k));
+    for (std::size_t l = 0; l < terms; ++l) sum[l] += pairs.weight[k] * p[l];
+    for (std::size_t J = 0; J < dimension; ++J) own[J] += first_derivative(a, k, J);
   }
+  double second_of[terms * second];
+  fill_second(a, second_of);
+  for (std::size_t n = 0; n < second; ++n)
+    for (std::size_t l = 0; l < terms; ++l) own[dimension + n] += sum[l] * second_of[l * second + n];
 }
 
 /// No handedness: the points of neighbouring cells are mirror images.
@@ -156,19 +163,21 @@ void GradientTables<D>::fill_second(std::size_t a, double* k) const {
     }
 }
 
+/// Component J of G_ab of pair k of a.
 template <int D>
-typename GradientTables<D>::Gradient GradientTables<D>::gradient(std::size_t a, std::size_t k) const {
-  Gradient g;
-  for (std::size_t J = 0; J < dimension; ++J)
-    g[J] = fluxes_.flux(a, k, static_cast<int>(J)) / (scaled_.cells[a].volume * scaled_.h[J]);
-  double of_terms[terms * second];
-  fill_second(a, of_terms);
+double GradientTables<D>::first_derivative(std::size_t a, std::size_t k, std::size_t J) const {
+  return fluxes_.flux(a, k, static_cast<int>(J)) / (scaled_.cells[a].volume * scaled_.h[J]);
+}
+
+template <int D>
+typename GradientTables<D>::Gradient GradientTables<D>::gradient(std::size_t a, std::size_t k,
+                                                                 double const* second_of) const {
+  Gradient g{};
+  for (std::size_t J = 0; J < dimension; ++J) g[J] = first_derivative(a, k, J);
   auto const p = fits_.monomials_of(a, fits_.pairs().at(k));
-  for (std::size_t n = 0; n < second; ++n) {
-    double sum = 0;
-    for (std::size_t l = 0; l < terms; ++l) sum += p[l] * of_terms[l * second + n];
-    g[dimension + n] = fits_.pairs().weight[k] * sum;
-  }
+  double const weight = fits_.pairs().weight[k];
+  for (std::size_t n = 0; n < second; ++n)
+    for (std::size_t l = 0; l < terms; ++l) g[dimension + n] += weight * p[l] * second_of[l * second + n];
   return g;
 }
 
@@ -195,8 +204,7 @@ void GradientTables<D>::fill_pairs() {
       std::size_t const b = pairs.at(k), back = opposite(a, b);
       for (std::size_t J = 0; J < dimension; ++J) {
         double const h = scaled_.h[J];
-        to_.gradient[(k - before) * dimension + J] =
-            fluxes_.flux(a, k, static_cast<int>(J)) / (scaled_.cells[a].volume * h);
+        to_.gradient[(k - before) * dimension + J] = first_derivative(a, k, J);
         to_.reaction[(k - before) * dimension + J] = fluxes_.flux(b, back, static_cast<int>(J)) * scaled_.h_volume / h;
       }
     }
@@ -255,17 +263,26 @@ void GradientTables<D>::fill_lattice(LatticeShape const& shape) {
                             auto const end = std::min(static_cast<std::size_t>(first + lanes), scaled_.particles);
                             for (auto a = static_cast<std::size_t>(first); a < end; ++a) key.push_back(kinds[a]);
                           });
+  LazyZeroArray<double> second_of(slots_ * terms * second);  // of the first particle of each kind
+  for (Index row = 0; row < fits_.rows().size(); ++row)
+    if (std::size_t const a = fits_.rows()[row]; fits_.representative(a) == a)
+      fill_second(a, &second_of[a * terms * second]);
   std::size_t const size = static_cast<std::size_t>(groups.stored_slots()) * used.size() * numbers;
   lattice.motion.assign(size, 0);
   lattice.force.assign(size, 0);
-  groups.each(static_cast<Index>(scaled_.particles), [&](Index place, Index a) { fill_group(shape, used, place, a); });
+  groups.each(static_cast<Index>(scaled_.particles), [&](Index place, Index a) {
+    fill_group({shape, used, second_of}, place, a);
+  });
   lattice.group = std::move(groups.stored);
 }
 
 /// `place`: of a lane among the stored groups.
 template <int D>
-void GradientTables<D>::fill_group(LatticeShape const& shape, std::vector<std::array<int, 3>> const& offsets,
-                                   Index place, Index a) {
+void GradientTables<D>::fill_group(LatticeRow const& row, Index place, Index a) {
+  auto const& [shape, offsets, second_of] = row;
+  auto const k_of = [&, &second = second_of](std::size_t particle) {
+    return &second[fits_.representative(particle) * terms * GradientTables::second];
+  };
   auto const lanes = static_cast<std::size_t>(from_.backend.lanes), at = static_cast<std::size_t>(place);
   std::size_t const group = at / lanes, lane = at % lanes, slot = static_cast<std::size_t>(a);
   auto const from = shape.place(a);
@@ -273,7 +290,8 @@ void GradientTables<D>::fill_group(LatticeShape const& shape, std::vector<std::a
     std::array const to{from[0] + offsets[o][0], from[1] + offsets[o][1], from[2] + offsets[o][2]};
     if (!shape.has(to)) continue;
     auto const b = static_cast<std::size_t>(shape.slot(to));
-    Gradient const forth = gradient(slot, opposite(b, slot)), back = gradient(b, opposite(slot, b));
+    Gradient const forth = gradient(slot, opposite(b, slot), k_of(slot)),
+                   back = gradient(b, opposite(slot, b), k_of(b));
     double const V = scaled_.cells[b].volume * scaled_.h_volume;
     for (std::size_t n = 0; n < numbers; ++n) {
       std::size_t const index = ((group * offsets.size() + o) * numbers + n) * lanes + lane;

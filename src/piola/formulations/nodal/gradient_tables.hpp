@@ -31,10 +31,16 @@ class GradientTables {
   void fill_pairs();
   void take_lists();
   void fill_lattice(LatticeShape const& shape);
-  void fill_group(LatticeShape const& shape, std::vector<std::array<int, 3>> const& offsets, Index place, Index a);
+  struct LatticeRow {
+    LatticeShape const& shape;
+    std::vector<std::array<int, 3>> const& offsets;
+    LazyZeroArray<double> const& second_of;  ///< k of the first particle of each kind
+  };
+  void fill_group(LatticeRow const& row, Index place, Index a);
 
-  /// (G_ab, K_ab) of pair k of a.
-  Gradient gradient(std::size_t a, std::size_t k) const;
+  double first_derivative(std::size_t a, std::size_t k, std::size_t J) const;
+  /// (G_ab, K_ab) of pair k of a, with k of a.
+  Gradient gradient(std::size_t a, std::size_t k, double const* second_of) const;
   /// Position of a in the pairs of b. Precondition: they are neighbours.
   std::size_t opposite(std::size_t a, std::size_t b) const;
   std::size_t place_of(std::size_t b) const;

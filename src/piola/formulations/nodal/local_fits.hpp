@@ -109,8 +109,8 @@ class LocalFits {
   bool sees(std::size_t a, std::size_t b) const;
   /// 1 - (r/R)^2 of two particles.
   double nearness(std::size_t a, std::size_t b) const;
-  /// Enlarges the support radii of the points whose entry in `good` is 0, and fits anew. Returns whether there was
-  /// none. Collective if the points are distributed, with entries that count for local points.
+  /// Enlarges the support radii of the points whose entry in `good` is 0, and repeats the fits. Returns whether there
+  /// was none. Collective if the points are distributed, with entries that count for local points.
   bool refine(std::vector<char> const& good);
   /// Local points whose support radius is above the usual one.
   Index enlarged() const;

@@ -207,7 +207,7 @@ struct UpdateStress {
       put_row(i, c, row);
     }
   }
-  /// What neighbours on a lattice read must be finite, also in slots without a particle.
+  /// Slots without a particle must hold finite numbers, which neighbours on a lattice read.
   PIOLA_FN void clear_empty(Index i, Lanes (&row)[numbers]) const {
     double here[lane_count];
     for (int l = 0; l < lane_count; ++l) here[l] = i + l < particles ? 1 : 0;
