@@ -163,10 +163,17 @@ void GradientTables<D>::fill_second(std::size_t a, double* k) const {
     }
 }
 
+/// Volume of a cell in spacings; on a lattice that of the first particle of its kind, so that gradients are those of
+/// the kind to the last bit.
+template <int D>
+double GradientTables<D>::volume(std::size_t a) const {
+  return scaled_.cells[fits_.representative(a)].volume;
+}
+
 /// Component J of G_ab of pair k of a.
 template <int D>
 double GradientTables<D>::first_derivative(std::size_t a, std::size_t k, std::size_t J) const {
-  return fluxes_.flux(a, k, static_cast<int>(J)) / (scaled_.cells[a].volume * scaled_.h[J]);
+  return fluxes_.flux(a, k, static_cast<int>(J)) / (volume(a) * scaled_.h[J]);
 }
 
 template <int D>
@@ -292,7 +299,7 @@ void GradientTables<D>::fill_group(LatticeRow const& row, Index place, Index a) 
     auto const b = static_cast<std::size_t>(shape.slot(to));
     Gradient const forth = gradient(slot, opposite(b, slot), k_of(slot)),
                    back = gradient(b, opposite(slot, b), k_of(b));
-    double const V = scaled_.cells[b].volume * scaled_.h_volume;
+    double const V = volume(b) * scaled_.h_volume;
     for (std::size_t n = 0; n < numbers; ++n) {
       std::size_t const index = ((group * offsets.size() + o) * numbers + n) * lanes + lane;
       to_.lattice.motion[index] = forth[n];

@@ -38,6 +38,7 @@ class GradientTables {
   };
   void fill_group(LatticeRow const& row, Index place, Index a);
 
+  double volume(std::size_t a) const;
   double first_derivative(std::size_t a, std::size_t k, std::size_t J) const;
   /// (G_ab, K_ab) of pair k of a, with k of a.
   Gradient gradient(std::size_t a, std::size_t k, double const* second_of) const;
