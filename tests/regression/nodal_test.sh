@@ -10,23 +10,29 @@ last() {
     END { if (!n || v < a || v > b) { print c " = " v; exit 1 } }' "$1/history.csv"
 }
 
-# M L / (E I) is 0.628 rad; 41 x 3 particles rest at 0.6151, 61 x 3 at 0.6176.
+# M L / (E I) is 0.628 rad; 41 x 3 particles rest at 0.6153. With a tolerance of 1e-4 they are within 1 % of that. With
+# the default of 1e-3 they stop 1 to 4 % short: the estimate of what is left is too small where fast modes cause stops.
 for step in 1e-3 1.05e-3 1.1e-3 1.2e-3 1.4e-3; do
-  expect 0 "varies along it" run "$cases/relaxed_beam.toml" --out rest --set "run.max_step=$step"
-  check last rest step 100 20000
-  check last rest end.twist_angle 0.613 0.617
+  expect 0 "varies along it" run "$cases/relaxed_beam.toml" --out rest --set "run.max_step=$step" \
+    --set run.relax_tolerance=1e-4
+  check last rest step 100 40000
+  check last rest end.twist_angle 0.609 0.6215
 done
-expect 3 "not at rest at run.end" run "$cases/relaxed_beam.toml" --out short --set run.end=2
+expect 3 "not at rest at run.end" run "$cases/relaxed_beam.toml" --out short --set run.end=2 \
+  --set run.relax_tolerance=1e-4
 expect 0 "" "$program" resume short --quiet --set run.end=60
-check last short end.twist_angle 0.613 0.617
+check last short end.twist_angle 0.609 0.6215
 
-expect 2 "miss the divergence theorem" run "$cases/long_bar.toml" --out long
+# A pulse of velocity in a bar of 501 particles. The first step would be 60 ns at 2 c / h.
+expect 0 "" run "$cases/long_bar.toml" --out long --set output.history.every="1 ns"
+check awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == "dt") n = i } $2 == 1 { good = $n >= 50e-9 }
+  END { exit !good }' long/history.csv
+check last long total_energy 150.1 150.8
 
 # A traction of 1 Pa on an edge of 16 m, for 0.1 s.
 for spacing in 2 1; do
-  expect 0 "scaled by 0.9" run "$cases/oblique_panel.toml" --out panel --set "body.panel.shape.spacing=$spacing"
-  expect 0 "scaled by 0.9" "$program" check "$cases/oblique_panel.toml" --set "body.panel.shape.spacing=$spacing"
-  check grep -q '"pull.area_error": -\?0.0' panel/summary.json
+  expect 0 "" run "$cases/oblique_panel.toml" --out panel --set "body.panel.shape.spacing=$spacing"
+  check grep -Eq '"pull.area_error": (-?[0-9.]+e-1[0-9]|0.0)' panel/summary.json
   check last panel pull.force_y 15.999999999 16.000000001
 done
 finish
