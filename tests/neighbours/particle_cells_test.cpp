@@ -51,7 +51,8 @@ void expect_divergence_theorem(ParticleSet const& set) {
 
 /// Every cell by itself: over its facets and its part of the surface.
 void expect_closed_cells(ParticleSet const& set) {
-  auto const cells = measure_cells(set, set.bodies[0]);
+  auto const cells = measure_cells(set, set.bodies[0], [](std::size_t) { return true; });
+  EXPECT_FALSE(cells.facet.empty());
   std::vector<Point> vector(cells.cell.size()), moment(cells.cell.size());
   auto const add = [&](Index a, NormalMoments const& m, double sign, Point const& from) {
     auto const k = static_cast<std::size_t>(a);
@@ -198,7 +199,7 @@ TEST(CellMoments, DoNotDependOnTheNumberOfThreads) {
   for (auto const& set : {unit_box(3, 6, 0.4), ball(3)}) {
     auto const measured = [&set](int threads) {
       Threads const guard(threads);
-      BodyCells const cells = measure_cells(set, set.bodies[0]);
+      BodyCells const cells = measure_cells(set, set.bodies[0], [](std::size_t) { return true; });
       std::vector<double> all;
       for (auto const& cell : cells.cell) {
         all.push_back(cell.volume);

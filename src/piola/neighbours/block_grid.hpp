@@ -20,6 +20,7 @@ class BlockGrid {
   std::size_t dimension() const { return D_; }
   /// Rows of blocks along the first axis, and blocks of a row.
   long rows() const { return count_[1] * count_[2]; }
+  long rows_in_plane() const { return count_[1]; }
   long in_row() const { return count_[0]; }
   Place place_of(long row, long i) const { return {i, row % count_[1], row / count_[1]}; }
   std::size_t index(Place const& at) const;
@@ -27,10 +28,14 @@ class BlockGrid {
   bool is_inside(Place const& at) const;
   /// Whether the place beside a block is beyond the box.
   bool is_beyond(Place const& at) const;
-  /// Calls f(place) for the blocks inside, row by row.
+  /// Calls f(place) for the blocks inside, row by row, of rows [first, last).
   template <class F>
   void each_inside(F const& f) const {
-    for (long row = 0; row < rows(); ++row)
+    each_inside(0, rows(), f);
+  }
+  template <class F>
+  void each_inside(long first, long last, F const& f) const {
+    for (long row = first; row < last; ++row)
       for (long i = 0; i < in_row(); ++i)
         if (Place const place = place_of(row, i); is_inside(place)) f(place);
   }

@@ -72,22 +72,25 @@ BlockSide::Point BlockSide::middle(std::size_t D) const {
   return X;
 }
 
-CellSums::CellSums(int dimension, Point const* X, std::size_t particles)
-    : D_(static_cast<std::size_t>(dimension)), X_(X), patches_(particles), facets_(particles) {
+CellSums::CellSums(int dimension, std::span<Point const> X, std::function<bool(std::size_t)> wants_facets)
+    : D_(static_cast<std::size_t>(dimension)), X_(X), wants_facets_(std::move(wants_facets)), patches_(X.size()) {
   PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
-  cells_.cell.resize(particles);
+  cells_.cell.resize(X.size());
+  if (wants_facets_) facets_.resize(X.size());
 }
 
 void CellSums::add_facet(std::size_t lower, std::size_t upper, BlockSide const& side) {
+  integrate(side, D_, [&](Point const& X, Point const& N) {
+    add_to_cell(lower, X, N, 1);
+    add_to_cell(upper, X, N, -1);
+  });
+  if (!wants_facet(lower, upper)) return;
   CellFacet& sum = facet(std::min(lower, upper), std::max(lower, upper));
   double const sign = lower < upper ? 1 : -1;
   Point middle{};
   for (std::size_t c = 0; c < D_; ++c) middle[c] = 0.5 * (X_[lower][c] + X_[upper][c]);
-  integrate(side, D_, [&](Point const& X, Point const& N) {
-    add_moments(sum.moments, monomials_of(from(middle, X)), N, sign);
-    add_to_cell(lower, X, N, 1);
-    add_to_cell(upper, X, N, -1);
-  });
+  integrate(side, D_,
+            [&](Point const& X, Point const& N) { add_moments(sum.moments, monomials_of(from(middle, X)), N, sign); });
 }
 
 void CellSums::add_surface(SurfacePatch const& like, BlockSide const& side) {

@@ -2,6 +2,8 @@
 #pragma once
 #include "piola/neighbours/particle_cells.hpp"
 #include <array>
+#include <functional>
+#include <span>
 #include <vector>
 
 namespace piola {
@@ -22,8 +24,8 @@ struct BlockSide {
 class CellSums {
  public:
   using Point = BlockSide::Point;
-  /// X: of the particles of the body; must outlive the sums.
-  CellSums(int dimension, Point const* X, std::size_t particles);
+  /// X: of the particles of the body; must outlive the sums. wants_facets: see measure_cells().
+  CellSums(int dimension, std::span<Point const> X, std::function<bool(std::size_t)> wants_facets);
 
   /// A side between the cells of two particles, N from `lower` to `upper`.
   void add_facet(std::size_t lower, std::size_t upper, BlockSide const& side);
@@ -35,11 +37,15 @@ class CellSums {
  private:
   Point from(Point const& origin, Point const& X) const;
   void add_to_cell(std::size_t a, Point const& X, Point const& N, double sign);
+  bool wants_facet(std::size_t a, std::size_t b) const {
+    return wants_facets_ && (wants_facets_(a) || wants_facets_(b));
+  }
   SurfacePatch& patch(SurfacePatch const& like);
   CellFacet& facet(std::size_t a, std::size_t b);
 
   std::size_t D_;
-  Point const* X_;
+  std::span<Point const> X_;
+  std::function<bool(std::size_t)> wants_facets_;
   BodyCells cells_;
   std::vector<std::vector<Index>> patches_;  ///< of a particle
   std::vector<std::vector<Index>> facets_;   ///< of a particle, towards particles with a higher number

@@ -5,6 +5,8 @@
 #include "piola/neighbours/nearest_particle.hpp"
 #include "piola/neighbours/surface_fit.hpp"
 #include "piola/particles/body_range.hpp"
+#include <algorithm>
+#include <cstdint>
 
 namespace piola {
 namespace {
@@ -46,9 +48,8 @@ BlockSide side_of(Point const& low, Point const& high, std::size_t axis, bool up
 }
 
 /// A lattice in a box: each cell is one block.
-BodyCells moments_of_lattice(ParticleSet const& set, Body const& body) {
+BodyCells moments_of_lattice(ParticleSet const& set, Body const& body, CellSums& sums) {
   auto const D = static_cast<std::size_t>(set.dimension);
-  CellSums sums(set.dimension, set.X.data() + body.first, static_cast<std::size_t>(body.last - body.first));
   LatticePlaces const particle_at(set, body);
   for (auto id = body.first; id < body.last; ++id) {
     auto const& X = set.X[static_cast<std::size_t>(id)];
@@ -75,31 +76,39 @@ BodyCells moments_of_lattice(ParticleSet const& set, Body const& body) {
   return sums.finish();
 }
 
-/// From blocks: row by row in threads whose they are; their sums follow in one order.
-BodyCells sample_cells(ParticleSet const& set, Body const& body) {
+/// From blocks: some planes at a time, row by row in threads, whose they are; their sums follow in one order.
+BodyCells sample_cells(ParticleSet const& set, Body const& body, CellSums& sums) {
+  constexpr long rows_at_once = 4096;
   BlockGrid const grid(body, set.dimension);
   NearestParticle const nearest(set, body);
-  std::vector<std::uint32_t> owner(static_cast<std::size_t>(grid.rows() * grid.in_row()));
-  exec_host::parallel_for(static_cast<Index>(grid.rows()), [&](Index row) {
-    for (long i = 0; i < grid.in_row(); ++i)
-      if (auto const place = grid.place_of(row, i); grid.is_inside(place))
-        owner[grid.index(place)] = static_cast<std::uint32_t>(nearest(grid.middle(place)));
-  });
   SurfaceFit const surface(grid, body.outline, body.spacing[0]);
-  CellSums sums(set.dimension, set.X.data() + body.first, static_cast<std::size_t>(body.last - body.first));
-  grid.each_inside([&](BlockGrid::Place const& at) {
-    auto const a = owner[grid.index(at)];
-    for (std::size_t c = 0; c < grid.dimension(); ++c)
-      for (bool const upper : {false, true}) {
-        auto const next = BlockGrid::beside(at, c, upper);
-        if (!grid.is_inside(next))
-          sums.add_surface(
-              {static_cast<Index>(a), surface.patch(at, c, upper), static_cast<int>(c), upper, grid.is_beyond(next)},
-              surface.side(at, c, upper));
-        else if (auto const b = owner[grid.index(next)]; upper && b != a)
-          sums.add_facet(a, b, surface.side(at, c, upper));
-      }
-  });
+  long const plane = grid.rows_in_plane(), planes = std::max(1L, rows_at_once / plane);
+  std::vector<std::uint32_t> owner(
+      static_cast<std::size_t>(std::min(grid.rows(), (planes + 1) * plane) * grid.in_row()));
+  for (long first = 0; first < grid.rows(); first += planes * plane) {
+    long const last = std::min(grid.rows(), first + planes * plane), known = std::min(grid.rows(), last + plane);
+    std::size_t const before = grid.index(grid.place_of(first, 0));
+    exec_host::parallel_for(static_cast<Index>(known - first), [&](Index row) {
+      for (long i = 0; i < grid.in_row(); ++i)
+        if (auto const place = grid.place_of(first + row, i); grid.is_inside(place))
+          owner[grid.index(place) - before] = static_cast<std::uint32_t>(nearest(grid.middle(place)));
+    });
+    grid.each_inside(first, last, [&](BlockGrid::Place const& at) {
+      auto const a = owner[grid.index(at) - before];
+      for (std::size_t c = 0; c < grid.dimension(); ++c)
+        for (bool const upper : {false, true}) {
+          auto const next = BlockGrid::beside(at, c, upper);
+          if (!grid.is_inside(next)) {
+            sums.add_surface(
+                {static_cast<Index>(a), surface.patch(at, c, upper), static_cast<int>(c), upper, grid.is_beyond(next)},
+                surface.side(at, c, upper));
+          } else if (upper) {
+            if (auto const b = owner[grid.index(next) - before]; b != a)
+              sums.add_facet(a, b, surface.side(at, c, upper));
+          }
+        }
+    });
+  }
   BodyCells cells = sums.finish();
   cells.farthest_move = surface.farthest_move();
   cells.unmoved = surface.unmoved();
@@ -108,12 +117,14 @@ BodyCells sample_cells(ParticleSet const& set, Body const& body) {
 
 }  // namespace
 
-BodyCells measure_cells(ParticleSet const& set, Body const& body) {
+BodyCells measure_cells(ParticleSet const& set, Body const& body,
+                        std::function<bool(std::size_t)> const& wants_facets) {
   PIOLA_EXPECTS(set.dimension >= 1 && set.dimension <= 3);
   PIOLA_EXPECTS(is_range_in(body, set));
   PIOLA_EXPECTS(body.spacing[0] > 0 && body.spacing[1] > 0 && body.spacing[2] > 0);
-  if (has_lattice_cells(body)) return moments_of_lattice(set, body);
-  return sample_cells(set, body);
+  CellSums sums(set.dimension, {set.X.data() + body.first, static_cast<std::size_t>(body.last - body.first)},
+                wants_facets);
+  return has_lattice_cells(body) ? moments_of_lattice(set, body, sums) : sample_cells(set, body, sums);
 }
 
 void take_cell_volumes(ParticleSet& set, Body const& body) {

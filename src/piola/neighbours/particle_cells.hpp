@@ -3,6 +3,7 @@
 #include "piola/math/lanes.hpp"
 #include "piola/particles/particle_set.hpp"
 #include <array>
+#include <functional>
 #include <vector>
 
 /// Cells of particles: the points of the undeformed body that are nearer to one particle than to any other, distances
@@ -53,8 +54,10 @@ inline bool has_lattice_cells(Body const& body) { return body.regular && !body.o
 /// Exact for boxes filled from a lattice. Others are sampled by blocks of a sixth of the spacing, aligned with the box
 /// around them; corners of blocks at a surface with known patches are moved onto it, onto edges and corners included,
 /// so that bodies with flat faces are exact. Every cell is closed by itself, and the divergence theorem holds for
-/// quadratic fields to round-off. Needs Body::outline. Cells may be without a block.
-BodyCells measure_cells(ParticleSet const& set, Body const& body);
+/// quadratic fields to round-off. Needs Body::outline. Cells may be without a block. wants_facets(particle): whether
+/// the facets of a particle are kept, counted from the body's first; none: of no particle.
+BodyCells measure_cells(ParticleSet const& set, Body const& body,
+                        std::function<bool(std::size_t)> const& wants_facets = {});
 
 /// Gives the particles of a body the volumes of their cells.
 void take_cell_volumes(ParticleSet& set, Body const& body);

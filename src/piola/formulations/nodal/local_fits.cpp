@@ -184,7 +184,7 @@ LocalFits<D>::LocalFits(Points const& X, std::optional<LatticeShape> const& latt
 template <int D>
 void LocalFits<D>::fit_lattice(LatticeShape const& shape) {
   lattice_ = shape;
-  representative_ = representatives_in_lattice(shape, static_cast<int>(usual_reach) + 1);
+  representative_ = representatives_in_lattice(shape, beyond_reach);
   kind_.resize(X_.size());
   std::vector<std::size_t> first;  // of each kind
   for (std::size_t a = 0; a < X_.size(); ++a) {

@@ -34,6 +34,9 @@ struct Pairs {
   Index farthest() const;
 };
 
+/// Distance from a face beyond which particles of a lattice have all neighbours.
+inline constexpr int beyond_reach = static_cast<int>(usual_reach) + 1;
+
 /// Per particle of a lattice: the first one with equal distances from all faces, where distances of `beyond` spacings
 /// or more count as equal.
 std::vector<Index> representatives_in_lattice(LatticeShape const& shape, int beyond);

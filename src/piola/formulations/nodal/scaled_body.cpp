@@ -200,6 +200,15 @@ ScaledCell scaled(CellMoments const& cell, ScaledBody const& body) {
   return r;
 }
 
+/// Which particles need their facets.
+std::function<bool(std::size_t)> wanted_facets(SetUp const& from, std::optional<LatticeShape> const& lattice) {
+  if (!lattice) return [](std::size_t) { return true; };
+  std::vector<bool> wanted(static_cast<std::size_t>(from.order.particles));
+  for (Index const slot : representatives_in_lattice(*lattice, beyond_reach))
+    wanted[static_cast<std::size_t>(from.order.id[static_cast<std::size_t>(slot)] - from.body.first)] = true;
+  return [wanted](std::size_t particle) { return wanted[particle]; };
+}
+
 /// The surface and the facets in slot order, slots by particle of the body.
 void take_surface(BodyCells&& measured, std::vector<Index> const& slot_of, ScaledBody& r) {
   r.patches = std::move(measured.patch);
@@ -230,14 +239,14 @@ void keep_cells(ScaledBody& body, IndexSet const& of) {
   body.cells = std::move(kept);
 }
 
-ScaledBody scaled_body(SetUp const& from) {
+ScaledBody scaled_body(SetUp const& from, std::optional<LatticeShape> const& lattice) {
   auto const& [set, body, order] = std::tie(from.set, from.body, from.order);
   ScaledBody r;
   for (std::size_t c = 0; c < static_cast<std::size_t>(set.dimension); ++c) {
     r.h[c] = body.spacing[c];
     r.h_volume *= body.spacing[c];
   }
-  BodyCells measured = measure_cells(set, body);
+  BodyCells measured = measure_cells(set, body, wanted_facets(from, lattice));
   std::vector<Index> slot_of(measured.cell.size());
   r.X.reserve(measured.cell.size());
   r.cells.reserve(measured.cell.size());

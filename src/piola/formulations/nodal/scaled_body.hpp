@@ -41,8 +41,9 @@ struct ScaledBody {
 /// Frees the memory of the cells of all particles except `of`.
 void keep_cells(ScaledBody& body, IndexSet const& of);
 
-/// Measures the cells of the body and continues it behind its mirror planes.
-ScaledBody scaled_body(SetUp const& from);
+/// Measures the cells of the body and continues it behind its mirror planes. lattice: the one that its particles fill
+/// in slot order, if only the facets of the first particle of each kind are needed.
+ScaledBody scaled_body(SetUp const& from, std::optional<LatticeShape> const& lattice);
 
 /// Positions in a list of items that belong to particles, particle by particle.
 class ItemsOfParticles {

@@ -118,10 +118,10 @@ template <int D>
 Reference make(SetUp const& from) {
   Reference r;
   auto clock = std::chrono::steady_clock::now();
-  ScaledBody scaled = scaled_body(from);
+  auto const shape = shape_for_loops(from);
+  ScaledBody scaled = scaled_body(from, shape);
   r.costs.cells = since(clock);
   refuse_without_cell(from, scaled);
-  auto const shape = shape_for_loops(from);
   std::optional<DistributedSlots> shared;
   if (from.is_shared()) shared = DistributedSlots{from.order.slots(), from.order.particles};
   bool const endless = from.images != nullptr && is_endless<D>(*from.images);
@@ -130,6 +130,7 @@ Reference make(SetUp const& from) {
   r.costs.masses = since(clock);
   LocalFits<D> fits(scaled.X, shape, shared);
   refuse_unsolvable(from, fits);
+  if (shape && !fits.usual()) scaled.facets = scaled_body(from, std::nullopt).facets;
   r.costs.fits = since(clock);
   FacetFluxes<D> const fluxes(fits, scaled);
   refuse_unsolvable(from, fits);
