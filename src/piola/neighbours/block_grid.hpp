@@ -28,16 +28,17 @@ class BlockGrid {
   bool is_inside(Place const& at) const;
   /// Whether the place beside a block is beyond the box.
   bool is_beyond(Place const& at) const;
-  /// Calls f(place) for the blocks inside, row by row, of rows [first, last).
-  template <class F>
-  void each_inside(F const& f) const {
-    each_inside(0, rows(), f);
-  }
+  /// Calls f(place) for the blocks inside that are in rows [first, last), row by row.
   template <class F>
   void each_inside(long first, long last, F const& f) const {
     for (long row = first; row < last; ++row)
       for (long i = 0; i < in_row(); ++i)
         if (Place const place = place_of(row, i); is_inside(place)) f(place);
+  }
+  /// Calls f(place) for all blocks inside.
+  template <class F>
+  void each_inside(F const& f) const {
+    each_inside(0, rows(), f);
   }
   static Place beside(Place at, std::size_t axis, bool upper) {
     at[axis] += upper ? 1 : -1;

@@ -21,7 +21,7 @@ GaussPoints const two_points{2, {0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sq
 GaussPoints const three_points{
     3, {0.5 - 0.5 * std::sqrt(0.6), 0.5, 0.5 + 0.5 * std::sqrt(0.6)}, {5.0 / 18, 8.0 / 18, 5.0 / 18}};
 
-/// Calls f(X, N dA) at the points of a quadrature that is exact for cubic fields, N along the axis.
+/// Calls f(X, N dA) at the points of a quadrature that is exact for cubic fields. N points along the axis.
 template <class F>
 void integrate(BlockSide const& side, std::size_t D, F const& f) {
   auto const& P = side.corner;
@@ -80,17 +80,15 @@ CellSums::CellSums(int dimension, std::span<Point const> X, std::function<bool(s
 }
 
 void CellSums::add_facet(std::size_t lower, std::size_t upper, BlockSide const& side) {
-  integrate(side, D_, [&](Point const& X, Point const& N) {
-    add_to_cell(lower, X, N, 1);
-    add_to_cell(upper, X, N, -1);
-  });
-  if (!wants_facet(lower, upper)) return;
-  CellFacet& sum = facet(std::min(lower, upper), std::max(lower, upper));
+  CellFacet* const sum = wants_facet(lower, upper) ? &facet(std::min(lower, upper), std::max(lower, upper)) : nullptr;
   double const sign = lower < upper ? 1 : -1;
   Point middle{};
   for (std::size_t c = 0; c < D_; ++c) middle[c] = 0.5 * (X_[lower][c] + X_[upper][c]);
-  integrate(side, D_,
-            [&](Point const& X, Point const& N) { add_moments(sum.moments, monomials_of(from(middle, X)), N, sign); });
+  integrate(side, D_, [&](Point const& X, Point const& N) {
+    add_to_cell(lower, X, N, 1);
+    add_to_cell(upper, X, N, -1);
+    if (sum != nullptr) add_moments(sum->moments, monomials_of(from(middle, X)), N, sign);
+  });
 }
 
 void CellSums::add_surface(SurfacePatch const& like, BlockSide const& side) {

@@ -76,7 +76,8 @@ BodyCells moments_of_lattice(ParticleSet const& set, Body const& body, CellSums&
   return sums.finish();
 }
 
-/// From blocks: some planes at a time, row by row in threads, whose they are; their sums follow in one order.
+/// Cells from blocks. Threads find the particles that blocks belong to, some planes at a time; sums are added up in one
+/// order.
 BodyCells sample_cells(ParticleSet const& set, Body const& body, CellSums& sums) {
   constexpr long rows_at_once = 4096;
   BlockGrid const grid(body, set.dimension);

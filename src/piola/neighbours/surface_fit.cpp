@@ -136,7 +136,7 @@ void SurfaceFit::step(Corner const& corner, Point& X) const {
   }
 }
 
-/// On curved patches the distance of the body, unless another patch is nearer.
+/// Height over a curved patch: the distance from the body, unless another patch is nearer.
 double SurfaceFit::exact_height(Point const& X, double height) const {
   if (!outline_.distance) return height;
   double const distance = outline_.distance(X);

@@ -251,13 +251,10 @@ void GradientTables<D>::take_lists() {
 template <int D>
 void GradientTables<D>::fill_lattice(LatticeShape const& shape) {
   constexpr int beyond = 5;
-  auto const offsets = offsets_in_reach(usual_reach);
-  std::vector<std::array<int, 3>> used;
-  for (auto const& o : offsets)
-    if ((D > 1 || o[1] == 0) && (D > 2 || o[2] == 0)) used.push_back(o);
+  auto const offsets = offsets_in_reach(D, usual_reach);
   auto& lattice = to_.lattice;
   std::ptrdiff_t farthest = 0;
-  for (auto const& o : used) {
+  for (auto const& o : offsets) {
     lattice.offset.push_back((static_cast<std::ptrdiff_t>(o[2]) * shape.count[1] + o[1]) * shape.count[0] + o[0]);
     farthest = std::max(farthest, std::abs(lattice.offset.back()));
   }
@@ -274,11 +271,11 @@ void GradientTables<D>::fill_lattice(LatticeShape const& shape) {
   for (Index row = 0; row < fits_.rows().size(); ++row)
     if (std::size_t const a = fits_.rows()[row]; fits_.representative(a) == a)
       fill_second(a, &second_of[a * terms * second]);
-  std::size_t const size = static_cast<std::size_t>(groups.stored_slots()) * used.size() * numbers;
+  std::size_t const size = static_cast<std::size_t>(groups.stored_slots()) * offsets.size() * numbers;
   lattice.motion.assign(size, 0);
   lattice.force.assign(size, 0);
   groups.each(static_cast<Index>(scaled_.particles), [&](Index place, Index a) {
-    fill_group({shape, used, second_of}, place, a);
+    fill_group({shape, offsets, second_of}, place, a);
   });
   lattice.group = std::move(groups.stored);
 }

@@ -108,12 +108,12 @@ Pairs find_pairs(Points const& X, std::span<double const> reach, IndexSet const&
   return pairs;
 }
 
-std::vector<std::array<int, 3>> offsets_in_reach(double reach) {
-  PIOLA_EXPECTS(reach > 0);
+std::vector<std::array<int, 3>> offsets_in_reach(int dimension, double reach) {
+  PIOLA_EXPECTS(reach > 0 && dimension >= 1 && dimension <= 3);
   std::vector<std::array<int, 3>> offsets;
-  int const steps = static_cast<int>(reach);
-  for (int k = -steps; k <= steps; ++k)
-    for (int j = -steps; j <= steps; ++j)
+  int const steps = static_cast<int>(reach), across = dimension > 1 ? steps : 0, up = dimension > 2 ? steps : 0;
+  for (int k = -up; k <= up; ++k)
+    for (int j = -across; j <= across; ++j)
       for (int i = -steps; i <= steps; ++i) {
         int const square = i * i + j * j + k * k;
         if (square > 0 && square < edge * reach * reach) offsets.push_back({i, j, k});
@@ -122,7 +122,7 @@ std::vector<std::array<int, 3>> offsets_in_reach(double reach) {
 }
 
 Pairs lattice_pairs(LatticeShape const& shape, double reach, IndexSet const& rows) {
-  auto const offsets = offsets_in_reach(reach);
+  auto const offsets = offsets_in_reach(shape.dimension, reach);
   Pairs pairs;
   Index const particles = shape.count[0] * shape.count[1] * shape.count[2];
   // f(neighbour) for all neighbours of a.

@@ -42,7 +42,7 @@ inline constexpr int beyond_reach = static_cast<int>(usual_reach) + 1;
 std::vector<Index> representatives_in_lattice(LatticeShape const& shape, int beyond);
 
 /// Steps along the directions of a lattice to the neighbours nearer than `reach` (exclusive), in the order of slots.
-std::vector<std::array<int, 3>> offsets_in_reach(double reach);
+std::vector<std::array<int, 3>> offsets_in_reach(int dimension, double reach);
 
 /// Pairs of the particles `rows` of a lattice nearer than `reach` (exclusive), without weights and without a search.
 Pairs lattice_pairs(LatticeShape const& shape, double reach, IndexSet const& rows);

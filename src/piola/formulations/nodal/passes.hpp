@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/exec/device_loops.hpp"
 #include "piola/exec/field_view.hpp"
-#include "piola/formulations/nodal/blocked_sweeps.hpp"
+#include "piola/formulations/nodal/lanes_of_field.hpp"
 #include "piola/formulations/nodal/lattice_sums.hpp"
 #include "piola/formulations/nodal/list_sums.hpp"
 #include "piola/formulations/nodal/state.hpp"

@@ -10,6 +10,7 @@ namespace piola::nodal {
 namespace {
 
 using Signs = std::array<double, 3>;
+using Moments = std::array<double, 10>;  // as a row of NormalMoments
 
 ScaledCell reflected(ScaledCell cell, Signs const& sign) {
   for (std::size_t c = 0; c < 3; ++c) cell.centroid[c] *= sign[c];
@@ -17,11 +18,16 @@ ScaledCell reflected(ScaledCell cell, Signs const& sign) {
   return cell;
 }
 
+Moments reflected(Moments moments, Signs const& sign) {
+  for (std::size_t c = 0; c < 3; ++c) moments[1 + c] *= sign[c];
+  for (std::size_t m = 0; m < 6; ++m) moments[4 + m] *= sign[moment_axis[m][0]] * sign[moment_axis[m][1]];
+  return moments;
+}
+
 NormalMoments reflected(NormalMoments moments, Signs const& sign) {
   for (std::size_t J = 0; J < 3; ++J) {
+    moments[J] = reflected(moments[J], sign);
     for (double& m : moments[J]) m *= sign[J];
-    for (std::size_t c = 0; c < 3; ++c) moments[J][1 + c] *= sign[c];
-    for (std::size_t m = 0; m < 6; ++m) moments[J][4 + m] *= sign[moment_axis[m][0]] * sign[moment_axis[m][1]];
   }
   return moments;
 }
@@ -29,13 +35,12 @@ NormalMoments reflected(NormalMoments moments, Signs const& sign) {
 SurfacePatch reflected(SurfacePatch patch, Signs const& sign) {
   if (sign[static_cast<std::size_t>(patch.axis)] < 0) patch.upper = !patch.upper;
   patch.moments = reflected(patch.moments, sign);
-  for (std::size_t c = 0; c < 3; ++c) patch.extent[1 + c] *= sign[c];
-  for (std::size_t m = 0; m < 6; ++m) patch.extent[4 + m] *= sign[moment_axis[m][0]] * sign[moment_axis[m][1]];
+  patch.extent = reflected(patch.extent, sign);
   return patch;
 }
 
 /// Moments about a place `by` away from the one that they are about.
-std::array<double, 10> about(std::array<double, 10> const& m, std::array<double, 3> const& by) {
+Moments about(Moments const& m, std::array<double, 3> const& by) {
   auto moved = m;
   for (std::size_t c = 0; c < 3; ++c) moved[1 + c] -= by[c] * m[0];
   for (std::size_t k = 0; k < 6; ++k) {
@@ -89,8 +94,8 @@ class PlacesOfImages {
   }
 
  private:
-  /// Positions within a thousandth of a spacing are equal, unless a border of the grid separates them; the grid has an
-  /// odd offset, so that none lies on a lattice.
+  /// Positions are equal if they are in the same cell of a grid of a thousandth of a spacing. The grid is shifted, so
+  /// that particles of a lattice are not on the borders of its cells.
   static std::array<long, 3> key(std::array<double, 3> const& X) {
     std::array<long, 3> at{};
     for (std::size_t c = 0; c < 3; ++c) at[c] = std::lround(1024 * X[c] + 0.2718);
@@ -127,8 +132,8 @@ class FacetsBehindPlanes {
     for (std::size_t c = 0; c < 3; ++c) X[c] = map.sign[c] * X[c] + map.shift[c] / body_.h[c];
     return place_of_(X);
   }
-  /// The patch of a particle on a plane is its facet with its image behind this plane: half of it, because the mirror
-  /// adds the same facet once more.
+  /// Adds the facet between a particle and its image, which is the particle's patch on the plane. Half of it counts,
+  /// because the reflection in this plane gives the same facet a second time.
   void cross(SurfacePatch const& patch, std::size_t axis) {
     auto const& X = body_.X[static_cast<std::size_t>(patch.particle)];
     double const height = images_.plane(axis, patch.upper) / body_.h[axis] - X[axis];
@@ -186,7 +191,7 @@ void continue_behind_planes(ScaledBody& r, MirrorImages const& images) {
 }
 
 /// From metres to spacings, over an area of one spacing across `axis`.
-void scale(std::array<double, 10>& moments, std::size_t axis, ScaledBody const& body) {
+void scale(Moments& moments, std::size_t axis, ScaledBody const& body) {
   double const area = body.h_volume / body.h[axis];
   for (double& m : moments) m /= area;
   for (std::size_t c = 0; c < 3; ++c) moments[1 + c] /= body.h[c];

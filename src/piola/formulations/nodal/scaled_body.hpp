@@ -45,10 +45,10 @@ void keep_cells(ScaledBody& body, IndexSet const& of);
 /// in slot order, if only the facets of the first particle of each kind are needed.
 ScaledBody scaled_body(SetUp const& from, std::optional<LatticeShape> const& lattice);
 
-/// Positions in a list of items that belong to particles, particle by particle.
+/// The items of each particle, as positions in a list of items.
 class ItemsOfParticles {
  public:
-  /// each(f) calls f(particle, item) for all pairs of a particle and an item, twice alike.
+  /// each(f) must call f(particle, item) for all items of all particles. It is called twice and must do the same.
   template <class Each>
   ItemsOfParticles(std::size_t particles, Each const& each) : begin_(particles + 1, 0) {
     each([&](Index particle, std::size_t) { ++begin_[static_cast<std::size_t>(particle) + 1]; });

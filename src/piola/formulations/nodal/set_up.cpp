@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/set_up.hpp"
 #include "piola/base/errors.hpp"
-#include "piola/exec/host_loops.hpp"
 #include "piola/formulations/nodal/constrained_facets.hpp"
 #include "piola/formulations/nodal/facet_fluxes.hpp"
 #include "piola/formulations/nodal/gradient_check.hpp"
@@ -12,9 +11,7 @@
 #include "piola/formulations/nodal/scaled_body.hpp"
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <fmt/format.h>
-#include <tuple>
 
 namespace piola::nodal {
 namespace {

@@ -40,10 +40,12 @@ extern template class SurfaceIntegrals<1>;
 extern template class SurfaceIntegrals<2>;
 extern template class SurfaceIntegrals<3>;
 
+/// Stands for a particle itself where others are positions in its pairs.
+constexpr auto itself = static_cast<std::size_t>(-1);
+
 /// Calls f(k, share) with the weights of particles in the integral of a motion over a piece of surface with these
 /// moments about particle a: an expansion by the fit of a. `k` is a position in the pairs of a, or `itself`, which
 /// comes last.
-constexpr auto itself = static_cast<std::size_t>(-1);
 template <int D, class F>
 void each_share(LocalFits<D> const& fits, std::size_t a, std::array<double, 10> const& moments, F const& f) {
   double own = moments[0];
