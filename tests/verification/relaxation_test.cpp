@@ -54,12 +54,18 @@ struct Relaxed {
   TimeState moment;
   bool unfinished = false;
 };
-Relaxed relax(Assembly const& a, double end = 10, double limit = 1e-4) {
-  Relaxed r{make_formulation(a), {}, {}};
+RunSpec relaxing(double end, std::string method = "kinetic_damping") {
   RunSpec run;
   run.end = end;
   run.relax = true;
+  run.relax_method = std::move(method);
+  return run;
+}
+Relaxed relax(Assembly a, double end = 10, double limit = 1e-4, std::string const& method = "kinetic_damping") {
+  RunSpec run = relaxing(end, method);
   run.relax_tolerance = limit;
+  a.minimises = run.minimises();
+  Relaxed r{make_formulation(a), {}, {}};
   Relaxation relaxation(run, a.particles, rho);  // of a unit box
   std::atomic<int> const stop{0};
   WallLimit wall(WallLimit::none, WallLimit::Clock::now());
@@ -174,9 +180,7 @@ TEST(Relaxation, BringsStiffAndSoftSpringsToRestAtAnyStep) {
     ParticleSet set;
     set.X.resize(4);
     set.volume.assign(4, 1);
-    RunSpec run;
-    run.end = 1000;
-    run.relax = true;
+    RunSpec const run = relaxing(1000);
     Relaxation relaxation(run, set, 4);
     TimeState moment;
     std::atomic<int> const stop{0};
@@ -200,9 +204,7 @@ TEST(Relaxation, DoesNotCallABodyAtRestThatFalls) {
 }
 
 TEST(Relaxation, GoesOnAfterACheckpointAsIfNothingHadBeen) {
-  RunSpec run;
-  run.end = 10;
-  run.relax = true;
+  RunSpec const run = relaxing(10);
   Assembly a = box_on_rollers("jst_sph", 2, 5);
   pull(a, 2, 5);
   auto const f = make_formulation(a), g_ = make_formulation(a);
@@ -229,6 +231,77 @@ TEST(Relaxation, GoesOnAfterACheckpointAsIfNothingHadBeen) {
   EXPECT_GT(one.rest().stops, 0);
   EXPECT_EQ(one.rest().residual, other.rest().residual);
   EXPECT_EQ(f->kinetic_energy(), g_->kinetic_energy());
+}
+
+// An error energy that falls by the factor q in a fifth of the run has q / (1 - q) of the last fifth left. A fifth is
+// nine marks or more, so that lengths are exact to a ninth.
+TEST(RemovedEnergy, ExtrapolatesAGeometricDecay) {
+  for (double const decay : {1e-3, 1e-4}) {
+    RemovedEnergy removed;
+    int const steps = static_cast<int>(2.5 / decay);
+    double left = 1;
+    for (int k = 0; k < steps; ++k) {
+      removed.add(left * (1 - std::exp(-decay)));
+      left *= std::exp(-decay);
+      removed.end_step();
+    }
+    double const exact = std::sqrt(left / (1 - left));
+    EXPECT_NEAR(removed.left() / exact, 1, 0.25) << decay;
+    RemovedEnergy copy;
+    copy.load(removed.state());
+    EXPECT_EQ(copy.left(), removed.left());
+  }
+}
+
+TEST(RemovedEnergy, IsNeverBelowTheEnergyOfTheLastFifth) {
+  RemovedEnergy removed;
+  for (int k = 0; k < 100; ++k) {
+    removed.add(k < 90 ? 1 : 0.1);
+    removed.end_step();
+  }
+  EXPECT_GE(removed.left(), std::sqrt(1.0 / 91));
+}
+
+/// A column of nodal under its weight, held at its foot.
+Assembly hanging_column(int dimension, int n) {
+  Assembly a = assemble(unit_box(dimension, n), material("neo_hookean", rho, E, nu));
+  a.formulations[0] = {"nodal", {}, {}};
+  support(a, {true, true, true}, [](Point const& X) { return X[0] < 1e-9; }).name = "foot";
+  load(a, {"100", "30", "0"}, everywhere);
+  return a;
+}
+
+// Both methods find the same state; energies are compared, whose error is the square of that of the displacement.
+TEST(ConjugateGradients, FindTheStateThatKineticDampingFinds) {
+  for (int const dimension : {2, 3}) {
+    Assembly const a = hanging_column(dimension, 6);
+    Relaxed const stops = relax(a, 10, 1e-6), descent = relax(a, 10, 1e-6, "conjugate_gradients");
+    EXPECT_TRUE(stops.rest.reached);
+    EXPECT_TRUE(descent.rest.reached);
+    EXPECT_LT(2 * descent.moment.step, stops.moment.step);
+    Diagnostics const one = stops.formulation->diagnose(), other = descent.formulation->diagnose();
+    EXPECT_NEAR(other.strain_energy / one.strain_energy, 1, 1e-5);
+    EXPECT_NEAR(tip(descent, a) / tip(stops, a), 1, 1e-5);
+    EXPECT_NEAR(other.external_work / one.external_work, 1, 1e-2);  // by the trapezoidal rule over long moves
+    EXPECT_EQ(other.kinetic_energy, 0);
+    EXPECT_NEAR(other.actions[0].force[0], -100 * rho, 1e-4 * 100 * rho);
+  }
+}
+
+TEST(ConjugateGradients, GoOnAfterACheckpointAsIfNothingHadBeen) {
+  Assembly a = hanging_column(2, 6);
+  a.minimises = true;
+  auto const f = make_formulation(a), g_ = make_formulation(a);
+  auto const advance = [](Formulation& formulation, int from, int to) {
+    for (int k = from; k < to; ++k) formulation.descend(1e-3 * k, 1e-3);
+  };
+  advance(*f, 0, 20);
+  SavedState state = saved(*f);
+  g_->load(state);
+  advance(*f, 20, 40);
+  advance(*g_, 20, 40);
+  auto const n = a.particles.X.size();
+  EXPECT_EQ(sample(*f, "Displacement", n), sample(*g_, "Displacement", n));
 }
 
 }  // namespace

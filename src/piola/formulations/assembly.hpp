@@ -84,6 +84,7 @@ struct Assembly {
   double cfl = std::numeric_limits<double>::quiet_NaN();  ///< nan: the scheme's default
   std::string backend = "auto";                           ///< instruction set: auto, scalar, v3, v4
   Repartition repartition;
+  bool minimises = false;  ///< whether Formulation::descend() takes the place of steps
 };
 
 /// The materials of a body: the main one, then those of its parts, in the order of ParticleSet::part.

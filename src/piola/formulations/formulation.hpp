@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -68,6 +69,12 @@ struct StepEstimate {
   double first = 0;    ///< s
   double growth = 1;   ///< a step may be longer than the one before by this factor; 1: no bound
   std::string limit;   ///< what limits the step, in words
+};
+
+/// What an iteration of an energy minimisation has reached.
+struct Descent {
+  double unbalanced = 0;  ///< sqrt(sum m |a|^2) of free accelerations at its start [N/kg^0.5]
+  double released = 0;    ///< fall of the potential energy [J]
 };
 
 /// Cost of a formulation and quality of its set-up, for the summary, estimates and benchmarks.
@@ -143,6 +150,10 @@ class Formulation {
   /// Multiplies the velocities that are not prescribed by `factor`, from 0 to 1. The lost kinetic energy is added to
   /// the damping loss. Called between steps.
   virtual void damp(double factor) = 0;
+
+  /// Moves the bodies, which stay at rest, towards the least potential energy, with loads from `time` to time + dt.
+  /// Collective. Only with Assembly::minimises, which no other formulation than nodal has; else throws.
+  virtual Descent descend(double /*time*/, double /*dt*/) { throw std::logic_error("no minimisation of the energy"); }
 
   virtual std::optional<Failure> failure() const = 0;  ///< set once the state is inadmissible
   virtual double kinetic_energy() const = 0;           ///< [J]; collective

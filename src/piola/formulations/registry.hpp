@@ -49,6 +49,7 @@ struct FormulationInfo {
   bool parts = false;             ///< whether bodies may consist of parts of several materials
   bool cell_volumes = false;      ///< whether jittered particles get the volumes of their Voronoi cells
   bool surface_supports = false;  ///< whether supports can hold the surface itself, where particles lie inside
+  bool minimises = false;         ///< whether it has Formulation::descend()
   /// Whether observers evaluate local particles on each rank; else every rank has the state of all bodies, and rank 0
   /// observes alone.
   bool observes_locally = false;

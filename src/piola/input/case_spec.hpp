@@ -32,7 +32,9 @@ struct RunSpec {
   double damping = 0;             ///< rate at which velocities decay [1/s]
   bool relax = false;             ///< dynamic relaxation: ends at rest
   double relax_tolerance = 1e-3;  ///< relax: residual force at rest / its maximum in the run
-  std::string backend = "auto";   ///< instruction set: auto, scalar, v3, v4
+  std::string relax_method = "kinetic_damping";
+  bool minimises() const { return relax && relax_method == "conjugate_gradients"; }
+  std::string backend = "auto";  ///< instruction set: auto, scalar, v3, v4
   Repartition repartition;
   GuardLimits guards;
   Places places;

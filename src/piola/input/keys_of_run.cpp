@@ -12,6 +12,7 @@ using enum KeyInfo::Kind;
 constexpr Interval open_unit{0, 1, true, true};
 constexpr std::array<std::string_view, 1> auto_word{"auto"}, off_word{"off"};
 constexpr std::array<std::string_view, 2> repartition_words{"auto", "never"};
+constexpr std::array<std::string_view, 2> relax_method_words{"kinetic_damping", "conjugate_gradients"};
 constexpr std::array<std::string_view, 4> instruction_set_words{"auto", "scalar", "v3", "v4"};
 
 constexpr std::array run_rows{
@@ -28,6 +29,11 @@ constexpr std::array run_rows{
             "dynamic relaxation: motion is taken out until the bodies are at rest, and the run ends there, at `end` at "
             "the latest"},
            fills<&RunSpec::relax>},
+    RunKey{{"run", "relax_method", word, "", any_value, default_of_member,
+            "relax: kinetic_damping stops all bodies at each peak of the kinetic energy; conjugate_gradients, for a "
+            "body of nodal on its own, minimises the potential energy",
+            relax_method_words},
+           fills<&RunSpec::relax_method>},
     RunKey{{"run", "relax_tolerance", quantity, "1", open_unit, default_of_member,
             "relax: tolerance; converged when the norm of unbalanced forces is below this fraction of its maximum in "
             "the run"},

@@ -92,7 +92,10 @@ std::vector<std::string> known_fields() {
 
 void read_run(Section const& section, RunSpec& run) {
   read_members(section, run_keys(), run);
-  if (!run.relax) section.refuse("relax_tolerance", "is used only with relax = true");
+  if (!run.relax) {
+    section.refuse("relax_tolerance", "is used only with relax = true");
+    section.refuse("relax_method", "is used only with relax = true");
+  }
   read_threads(section, run);
   read_repartition(section, run);
   read_guards(section, run.guards);
@@ -101,7 +104,7 @@ void read_run(Section const& section, RunSpec& run) {
                                                              quantity_text(run.max_step, "s") + ")");
   }
   section.refuse_unknown();
-  run.places = places_of(section, {"end", "cfl", "max_step"});
+  run.places = places_of(section, {"end", "cfl", "max_step", "relax_method"});
 }
 
 void read_output(Section const& section, OutputSpec& output, std::span<BodySpec const> bodies) {

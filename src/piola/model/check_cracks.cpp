@@ -39,6 +39,7 @@ void open_cracks(CaseSpec const& spec, ParticleSet& particles, Problems& problem
 
 void check_abilities(CaseSpec const& spec, Problems& problems) {
   check_contact(spec, problems);
+  check_minimisation(spec, problems);
   for (CrackSpec const& crack : spec.cracks) {
     auto const info = formulation_of(spec, crack.body);
     if (info && !info->cracks) problems.add(place_of(crack.places, ""), refusal(*info, "cracks"));

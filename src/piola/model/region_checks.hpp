@@ -44,6 +44,8 @@ bool check_where(Expression const& where, std::string const& name, Place const& 
 
 /// Checks that the bodies support the contact settings of the case: rules, pairs, rigid shapes.
 void check_contact(CaseSpec const& spec, Problems& problems);
+/// Refuses what the minimisation of the energy (run.relax_method) cannot do.
+void check_minimisation(CaseSpec const& spec, Problems& problems);
 
 /// Opens the cracks of the last body of the set. Adds impossible cracks to `problems`.
 void open_cracks(CaseSpec const& spec, ParticleSet& particles, Problems& problems);

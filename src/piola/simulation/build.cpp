@@ -254,6 +254,7 @@ Assembly assemble(CaseSpec const& spec, ParticleSet particles) {
   a.cfl = spec.run.cfl;
   a.backend = spec.run.backend;
   a.repartition = spec.run.repartition;
+  a.minimises = spec.run.minimises();
   a.initial_velocity.resize(a.particles.X.size());
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     a.materials.push_back(spec.bodies[b].material);

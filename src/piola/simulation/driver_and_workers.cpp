@@ -24,6 +24,7 @@ struct Command {
   enum class What : std::int64_t {
     step,
     damp,
+    descend,
     kinetic_energy,
     diagnose,
     step_bound,
@@ -145,6 +146,11 @@ class DriverProxy final : public Formulation, public Observables {
     send({Command::What::damp, factor});
     own().damp(factor);
   }
+  Descent descend(double time, double dt) override {
+    send({Command::What::descend, time, dt});
+    count_step();
+    return own().descend(time, dt);
+  }
   double kinetic_energy() const override {
     ExcludeFromStepTraffic const aside;
     send({Command::What::kinetic_energy});
@@ -231,6 +237,7 @@ void execute_command(Formulation& formulation, Command const& order) {
     case Command::What::step: count_step(); return formulation.step(order.first, order.second);
     case Command::What::traffic: return void(gather_traffic());
     case Command::What::damp: return formulation.damp(order.first);
+    case Command::What::descend: count_step(); return void(formulation.descend(order.first, order.second));
     case Command::What::kinetic_energy: return void(formulation.kinetic_energy());
     case Command::What::diagnose: return void(formulation.diagnose());
     case Command::What::step_bound: return void(formulation.observables().step_bound());

@@ -16,9 +16,8 @@ namespace {
 /// A time to a peak is dropped after this multiple of itself: the first swing, of a load that grows or of a body that
 /// falls, need not be a vibration.
 constexpr double remembered = 20;
-/// Largest remaining fraction of the displacement at rest. Estimates exceed the true remainder, by five to ten times in
-/// a beam that bends.
-constexpr double most_left = 0.02;
+/// Largest remaining fraction of the displacement at rest.
+constexpr double most_left = 0.01;
 /// Steps over which stops are counted.
 constexpr double window_steps = 1000;
 /// From rest to a peak after one step and back to it.
@@ -27,7 +26,12 @@ constexpr double steps_of_short_stop = 3;
 }  // namespace
 
 Relaxation::Relaxation(RunSpec const& run, ParticleSet const& particles, double mass)
-    : rate_(run.damping), relax_(run.relax), limit_(run.relax_tolerance), particles_(particles), mass_(mass) {
+    : rate_(run.damping),
+      relax_(run.relax),
+      minimises_(run.minimises()),
+      limit_(run.relax_tolerance),
+      particles_(particles),
+      mass_(mass) {
   PIOLA_EXPECTS(mass >= 0 && run.damping >= 0);
 }
 
@@ -39,6 +43,7 @@ bool Relaxation::after_step(Formulation& formulation, double dt) {
   PIOLA_EXPECTS(dt > 0);
   if (rate_ > 0) formulation.damp(std::exp(-rate_ * dt));
   if (!relax_) return false;
+  removed_.end_step();
   if (++swing_.window > window_steps) {
     rest_.short_stops = std::lround(swing_.in_window);
     swing_.window = swing_.in_window = 0;
@@ -51,11 +56,11 @@ bool Relaxation::after_step(Formulation& formulation, double dt) {
   kinetic_ = formulation.kinetic_energy();
   if (from_rest_) {
     from_rest_ = false;
-    judge(formulation, dt);
-    if (rest_.reached) stop(formulation);
+    if (is_at_rest(formulation, std::sqrt(2 * kinetic_) / dt)) stop(formulation);
   } else if (kinetic_ < before) {
     formulation.damp(-1);
     swing_.backwards = 1;
+    removed_.add(before);
     return false;
   }
   swing_.time += dt;
@@ -63,18 +68,28 @@ bool Relaxation::after_step(Formulation& formulation, double dt) {
   return rest_.reached;
 }
 
-void Relaxation::judge(Formulation const& formulation, double dt) {
-  double const unbalanced = std::sqrt(2 * kinetic_) / dt;
+bool Relaxation::descend(Formulation& formulation, double time, double dt) {
+  PIOLA_EXPECTS(minimises_ && dt > 0);
+  Descent const descent = formulation.descend(time, dt);
+  removed_.add(descent.released);
+  removed_.end_step();
+  if (descent.released > 0) ++rest_.stops;
+  return is_at_rest(formulation, descent.unbalanced);
+}
+
+/// Before the first stop the bodies may be about to be loaded. A swing between two small residuals shows the slow
+/// motion that was hidden behind a fast one.
+bool Relaxation::is_at_rest(Formulation const& formulation, double unbalanced) {
   largest_ = std::max(largest_, unbalanced);
   rest_.residual = largest_ > 0 ? unbalanced / largest_ : 0;
-  // Before the first stop the bodies may be about to be loaded. A swing between two small residuals shows the slow
-  // motion that was hidden behind a fast one.
-  bool const calm = std::exchange(swing_.calm, rest_.residual <= limit_ ? 1.0 : 0.0) > 0 || unbalanced == 0;
-  if (rest_.stops == 0 || rest_.residual > limit_ || !calm) return;
+  bool const before = std::exchange(swing_.calm, rest_.residual <= limit_ ? 1.0 : 0.0) > 0;
+  if (rest_.stops == 0 || rest_.residual > limit_ || (!before && unbalanced > 0)) return false;
   double const quarter = 2 * swing_.slowest / std::numbers::pi;
   double const missing = unbalanced * quarter * quarter / std::sqrt(mass_);
-  rest_.left = missing > 0 ? missing / displacement(formulation) : 0;
+  rest_.left = removed_.left();
+  if (missing > 0) rest_.left = std::max(rest_.left, missing / displacement(formulation));
   rest_.reached = rest_.left <= most_left;
+  return rest_.reached;
 }
 
 /// Root mean square over all particles, at least the rounding error for a body of this size [m].
@@ -143,6 +158,7 @@ StopRequest Relaxation::objection_at_end() const {
 void Relaxation::save(StateWriter& writer) const {
   writer.put("relaxation", std::array{rest_.reached ? 1.0 : 0.0, rest_.residual, static_cast<double>(rest_.stops),
                                       from_rest_ ? 1.0 : 0.0, kinetic_, largest_});
+  writer.put("relaxation_energy", removed_.state());
   writer.put("relaxation_swing",
              std::array{swing_.time, swing_.steps, swing_.slowest, swing_.backwards, swing_.window, swing_.in_window,
                         swing_.calm, rest_.left, static_cast<double>(rest_.short_stops)});
@@ -155,7 +171,10 @@ void Relaxation::load(NamedState& reader, TimeState const&) {
   from_rest_ = v[3] != 0;
   kinetic_ = v[4];
   largest_ = v[5];
-  if (!reader.has("relaxation_swing")) return;  // checkpoints of older versions have none
+  if (!reader.has("relaxation_energy")) return;  // checkpoints of older versions have none
+  std::vector<double> energy(RemovedEnergy::state_size());
+  reader.get("relaxation_energy", energy);
+  removed_.load(energy);
   std::array<double, 9> w{};
   reader.get("relaxation_swing", w);
   swing_ = {w[0], w[1], w[2], w[3], w[4], w[5], w[6]};

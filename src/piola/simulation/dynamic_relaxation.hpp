@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/simulation/observers.hpp"
+#include "piola/simulation/removed_energy.hpp"
 #include <string>
 
 namespace piola {
@@ -20,11 +21,14 @@ struct RelaxationStatus {
 /// the peak from a quantity that steps conserve, so that no vibration survives stops at any step length; stops after
 /// the peak leave one with omega dt = sqrt(2) unchanged.
 ///
-/// After the first step from rest sqrt(2 E_kin) / dt is the norm |a| = sqrt(sum m |a|^2) of the unbalanced forces. With
-/// T the longest time from a stop to its peak, a quarter of the period of the slowest motion, the remaining
-/// displacement is about |a| (2 T / pi)^2, in the norm sqrt(sum m |u|^2). Convergence: |a| is below `rest` of the
-/// largest so far at two consecutive stops, and the remaining displacement is below 2 % of the present one. Relaxation
-/// is an Observer only for its state in checkpoints. On rank 0 only.
+/// Or minimises the potential energy: Formulation::descend().
+///
+/// After the first step from rest sqrt(2 E_kin) / dt is the norm |a| = sqrt(sum m |a|^2) of the unbalanced forces.
+/// With T the longest time from a stop to its peak, a quarter of the period of the slowest motion, the remaining
+/// displacement is about |a| (2 T / pi)^2, in the norm sqrt(sum m |u|^2). RemovedEnergy::left() is a second estimate,
+/// which holds where fast motion causes the stops. Convergence: |a| is below `rest` of the largest so far at two
+/// consecutive stops, and the larger estimate is below 1 % of the present displacement. Relaxation is an Observer only
+/// for its state in checkpoints. On rank 0 only.
 class Relaxation : public Observer {
  public:
   /// `mass` [kg] of all moving particles. The particles must outlive the relaxation.
@@ -33,7 +37,10 @@ class Relaxation : public Observer {
   void start(Formulation& formulation) const;
   /// After each step; returns true once the bodies are at rest and have zero velocity.
   bool after_step(Formulation& formulation, double dt);
+  /// Instead of a step: an iteration of the minimisation of the energy. Returns true once the bodies are at rest.
+  bool descend(Formulation& formulation, double time, double dt);
   bool active() const { return relax_; }
+  bool minimises() const { return minimises_; }
   RelaxationStatus const& rest() const { return rest_; }
   /// Whether run.end came before convergence, although something moves.
   bool unfinished() const { return relax_ && !rest_.reached && (rest_.stops > 0 || kinetic_ > 0); }
@@ -50,7 +57,7 @@ class Relaxation : public Observer {
 
  private:
   void stop(Formulation& formulation);
-  void judge(Formulation const& formulation, double dt);
+  bool is_at_rest(Formulation const& formulation, double unbalanced);
   double displacement(Formulation const& formulation) const;
 
   /// The motion since the last stop, and a summary of the earlier ones.
@@ -62,12 +69,13 @@ class Relaxation : public Observer {
     double calm = 0;                   ///< 1: the last residual was below the tolerance
   };
   double rate_;
-  bool relax_;
+  bool relax_, minimises_;
   double limit_;
   ParticleSet const& particles_;
   double mass_;
   RelaxationStatus rest_;
   Swing swing_;
+  RemovedEnergy removed_;
   bool from_rest_ = true;
   double kinetic_ = 0;  ///< after the last step [J]
   double largest_ = 0;  ///< largest norm of unbalanced forces so far [N/kg^0.5]

@@ -154,7 +154,8 @@ void report_set_up(Formulation const& formulation, RunLog& journal) {
 void report_rest(Relaxation const& relaxation, RunLog& journal) {
   if (!relaxation.active()) return;
   if (relaxation.rest().reached)
-    journal.note(fmt::format("at rest after {} stops: {}", relaxation.rest().stops, relaxation.text()));
+    journal.note(fmt::format("at rest after {} {}: {}", relaxation.rest().stops,
+                             relaxation.minimises() ? "iterations" : "stops", relaxation.text()));
   if (std::string const slow = relaxation.slow_text(); !slow.empty()) journal.warn(slow);
 }
 

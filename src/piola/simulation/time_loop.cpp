@@ -71,8 +71,12 @@ LoopResult march(Formulation& formulation, RunSpec const& run, TimeState& moment
     if (cut_to_end) {
       for (Observer* observer : observers) observer->before_shortened_step(formulation, moment);
     }
-    formulation.step(moment.time, dt);
-    if (relaxation != nullptr) moment.at_rest = relaxation->after_step(formulation, dt);
+    if (relaxation != nullptr && relaxation->minimises()) {
+      moment.at_rest = relaxation->descend(formulation, moment.time, dt);
+    } else {
+      formulation.step(moment.time, dt);
+      if (relaxation != nullptr) moment.at_rest = relaxation->after_step(formulation, dt);
+    }
 
     moment.time = dt == run.end - moment.time ? run.end : moment.time + dt;
     moment.step += 1;

@@ -130,6 +130,15 @@ void Boundary::damp(BodyState& state, double factor) const {
   surface_.set_velocity(state.v);
 }
 
+void Boundary::hold_at_rest(BodyState& state) {
+  for (PrescribedDirection const& h : driven_.held()) {
+    double along = 0;
+    for (int c = 0; c < D_; ++c) along += value_at(state.v, h.slot, c) * h.direction[c];
+    for (int c = 0; c < D_; ++c) value_at(state.v, h.slot, c) -= along * h.direction[c];
+  }
+  surface_.set_velocity(state.v);
+}
+
 exec::ReproducibleSum Boundary::square_of_held(BodyState const& state) const {
   exec::ReproducibleSum sum;
   for (Index n = 0; n < state.boundary.held_count; ++n) {

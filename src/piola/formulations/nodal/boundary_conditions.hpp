@@ -46,6 +46,8 @@ class Boundary {
   }
   /// Multiplies the velocities that no support prescribes.
   void damp(BodyState& state, double factor) const;
+  /// Removes from velocities what supports at rest do not allow.
+  void hold_at_rest(BodyState& state);
   /// Whether a particle contributes to a surface place that supports hold.
   bool moves_surface(Index slot) const { return surface_.reaches(slot); }
   /// After velocities were changed by contact: supports restore the velocity of the surface that they hold.

@@ -62,6 +62,7 @@ FormulationInfo info() {
   info.observes_locally = true;
   info.parts = true;
   info.surface_supports = true;
+  info.minimises = true;
   info.outline = true;  // cells end at the surface, and mirror planes are there
   return info;
 }

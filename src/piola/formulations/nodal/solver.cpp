@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/solver.hpp"
 #include "piola/formulations/common/bodies_solver.hpp"
+#include "piola/formulations/nodal/energy_descent.hpp"
 #include "piola/formulations/nodal/observe.hpp"
 #include "piola/formulations/nodal/stability.hpp"
 #include <algorithm>
@@ -18,16 +19,18 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
   explicit Solver(Assembly const& assembly)
       : BodiesSolver(assembly), backend_(choose_backend(assembly.backend.c_str())) {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
-      Options const options =
-          read_options(assembly.formulations[k], materials_of(assembly, k), set_.dimension, assembly.cfl);
+      Options options = read_options(assembly.formulations[k], materials_of(assembly, k), set_.dimension, assembly.cfl);
+      if (assembly.minimises) options.fluctuation_viscosity = options.shock_viscosity = 0;
       bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, backend_));
       monitors_.push_back(std::make_unique<StabilityMonitor>(*bodies_.back(), backend_));
+      if (assembly.minimises) descents_.emplace_back(*bodies_.back(), backend_);
     }
     if (assembly.coupled) slots_ = SlotsById(set_, bodies_);
   }
 
   double stable_time_step() const override {
-    return clip_step_to_end_time_of(bodies_, time_, least_step(&StabilityMonitor::step));
+    return clip_step_to_end_time_of(
+        bodies_, time_, least_step(descents_.empty() ? &StabilityMonitor::step : &StabilityMonitor::calm_step));
   }
 
   StepEstimate step_estimate() const override {
@@ -53,11 +56,9 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
       repeated_ += halvings;
       monitors_[k]->update(dt, halvings);
     }
-    actions_.end_step(bodies_);
-    time_ = time + dt;
-    ends_step_ = true;
-    if (comm::is_parallel() && any_failed()) replicate_failures();
+    end_step(time + dt);
   }
+  Descent descend(double time, double dt) override;
 
   void damp(double factor) override {
     for (auto const& body : bodies_) {
@@ -82,6 +83,12 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
   RunStatistics statistics() const override;
 
  private:
+  void end_step(double time) {
+    actions_.end_step(bodies_);
+    time_ = time;
+    ends_step_ = true;
+    if (comm::is_parallel() && any_failed()) replicate_failures();
+  }
   void update_output_fields(NodalBody& body) const override {
     if (body.observed()) return;
     body.set_observed(true);
@@ -106,9 +113,24 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
   }
 
   Backend const& backend_;
+  std::vector<EnergyDescent> descents_;  ///< per body, if the run minimises
   bool ends_step_ = false;  ///< whether the next add_velocities() ends the last step or begins the next one
   double repeated_ = 0;     ///< steps that were taken again in halves
 };
+
+Descent Solver::descend(double time, double dt) {
+  PIOLA_EXPECTS(!descents_.empty());
+  Descent all;
+  actions_.begin_step(bodies_, dt);
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    bodies_[k]->set_observed(false);
+    Descent const one = descents_[k].iterate(time, dt);
+    all.unbalanced = std::hypot(all.unbalanced, one.unbalanced);
+    all.released += one.released;
+  }
+  end_step(time + dt);
+  return all;
+}
 
 /// The longest step that keeps the energy of all bodies as well as is wanted [s]; infinite where nothing moves.
 double Solver::calm_time_step() const {
@@ -192,6 +214,7 @@ void Solver::save(StateWriter& writer) const {
     NodalBody const& body = *bodies_[k];
     save_fields(writer, k);
     writer.put(fmt::format("body{}_step_limit", k), monitors_[k]->state());
+    if (!descents_.empty()) writer.put(fmt::format("body{}_direction", k), descents_[k].state());
     writer.put(fmt::format("body{}_energy_books", k),
                std::array{body.boundary().external_work().over_ranks(), body.damping_loss()});
   }
@@ -205,6 +228,7 @@ void Solver::load(StateReader& reader) {
     body.set_observed(false);
     load_fields(reader, k);
     monitors_[k]->load(reader, fmt::format("body{}_step_limit", k));
+    if (!descents_.empty()) descents_[k].load(reader, fmt::format("body{}_direction", k));
     std::array<double, 2> energy_totals{};
     reader.get(fmt::format("body{}_energy_books", k), energy_totals);
     body.boundary().external_work().set(energy_totals[0]);

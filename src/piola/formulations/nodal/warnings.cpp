@@ -32,15 +32,19 @@ bool varies(Load const& load, ParticleSet const& particles) {
 /// without end (docs/theory/nodal.md, section 6), of which nodal takes nothing.
 void warn_of_following_pressures(Assembly const& assembly, std::size_t body, BodyWarnings& warnings) {
   Body const& own = assembly.particles.bodies[body];
-  if (warnings.has_setting("fluctuation_viscosity")) return;
+  if (warnings.has_setting("fluctuation_viscosity") && !assembly.minimises) return;
   for (Load const& load : assembly.loads) {
     bool const here = !load.particles.empty() && load.particles[0] >= own.first && load.particles[0] < own.last;
     if (!here || !load.follows || !varies(load, assembly.particles)) continue;
     warnings.add(
         "formulation",
         fmt::format("load '{}' is a pressure that follows the face and varies along it: it is not conservative "
-                    "and may feed short waves, which nodal does not damp - give fluctuation_viscosity = 0.05",
-                    load.name));
+                    "and {}",
+                    load.name,
+                    assembly.minimises
+                        ? "has no energy for conjugate gradients, which then hardly get on - give "
+                          "run.relax_method = \"kinetic_damping\""
+                        : "may feed short waves, which nodal does not damp - give fluctuation_viscosity = 0.05"));
   }
 }
 
