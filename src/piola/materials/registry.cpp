@@ -18,6 +18,7 @@ constexpr auto table(LawList<Law...>, StrengthList<Strength...>) {
                             .validity = Law::validity,
                             .parameters = Law::parameters,
                             .volumetric_split = Law::volumetric_split,
+                            .small_strain = Law::small_strain,
                             .elastic_rate = RateForm<Law>,
                             .index = index++}...,
                     LawInfo{.name = Strength::name,

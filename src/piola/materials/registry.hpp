@@ -15,6 +15,7 @@ struct LawInfo {
   std::string_view validity{};  ///< range of strains and rotations, errors beyond; empty: the law itself sets no bound
   std::span<Parameter const> parameters{};
   bool volumetric_split = false;  ///< energy: isochoric part plus kappa/2 (J - 1)^2
+  bool small_strain = false;      ///< stress from the displacement gradient, without rotation
   bool hypoelastic = false;       ///< a solid in rate form (hypoelastic_solid.hpp), else a hyperelastic law
   bool elastic_rate = false;      ///< a hyperelastic law that also gives its stress rate (RateForm in laws.hpp)
   bool brittle = false;           ///< a solid whose damage is part of its strength

@@ -35,6 +35,16 @@ void subtract_gradients(BodyState& body, FieldRef const& centroid) {
   with_step(body, [&](auto one_step) { one_step.subtract_gradients(centroid); });
 }
 
+void linearise_pressure(BodyState& body) {
+  with_step(body, [](auto one_step) { one_step.linearise_pressure(); });
+}
+void change_of_ratio(BodyState& body) {
+  with_step(body, [](auto one_step) { one_step.change_of_ratio(); });
+}
+void accelerate_by_pressure(BodyState& body) {
+  with_step(body, [](auto one_step) { one_step.accelerate_by_pressure(); });
+}
+
 double largest_change(BodyState& body) {
   exec::for_each_block(body.slots, LargestChange{read(body.change), body.partial});
   double largest = 0;
@@ -46,7 +56,17 @@ double largest_change(BodyState& body) {
 
 /// The entry by which the host finds this instruction set.
 extern Backend const backend;
-Backend const backend{PIOLA_BACKEND_NAME, lane_count, &step,    &accelerate,        &update_output_fields,
-                      &largest_change,    &keep,      &restore, &subtract_gradients};
+Backend const backend{PIOLA_BACKEND_NAME,
+                      lane_count,
+                      &step,
+                      &accelerate,
+                      &update_output_fields,
+                      &linearise_pressure,
+                      &change_of_ratio,
+                      &accelerate_by_pressure,
+                      &largest_change,
+                      &keep,
+                      &restore,
+                      &subtract_gradients};
 
 }  // namespace piola::nodal::inline PIOLA_BACKEND

@@ -5,6 +5,7 @@
 #include "piola/exec/host_loops.hpp"
 #include "piola/formulations/nodal/field_set_up.hpp"
 #include "piola/formulations/nodal/halo_fields.hpp"
+#include "piola/formulations/nodal/implicit_pressure.hpp"
 #include "piola/formulations/nodal/mirror_passes.hpp"
 #include <algorithm>
 #include <fmt/format.h>
@@ -73,7 +74,8 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
       state_(&fields_, set.dimension,
              {.viscosity = options.fluctuation_viscosity > 0 || options.shock_viscosity > 0,
               .solids = options.solids,
-              .offset = !assembly.initial_deformation_gradient.empty()}) {
+              .offset = !assembly.initial_deformation_gradient.empty(),
+              .implicit_pressure = options.implicit_pressure}) {
   state_.slots = even_range_of_rank(order_.slots(), comm::rank(), comm::size());
   state_.all_slots = order_.slots();
   state_.particles = order_.particles;
@@ -87,6 +89,7 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
   allocate();
   fill(assembly, backend);
   make_boundary(assembly, body);
+  if (options_.implicit_pressure) make_pressure(backend);
   backend.step(state_, 0);  // the accelerations of the start
 }
 
@@ -155,6 +158,12 @@ void NodalBody::make_boundary(Assembly const& assembly, std::size_t body) {
   if (!assembly.coupled) LazyZeroArray<double>().swap(r.mass);
   LazyZeroArray<double>().swap(r.centroid);
   r.parts.clear();
+}
+
+void NodalBody::make_pressure(Backend const& backend) {
+  implicit_pressure_ = std::make_shared<ImplicitPressure>(*this, backend);
+  state_.implicit_pressure = implicit_pressure_.get();
+  state_.move_by_pressure = [](ImplicitPressure& pressure, double dt) { pressure.move(dt); };
 }
 
 int NodalBody::step(Backend const& backend, double time, double dt, int halvings) {

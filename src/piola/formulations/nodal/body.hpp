@@ -98,6 +98,7 @@ class NodalBody {
   void allocate();
   void fill(Assembly const& assembly, Backend const& backend);
   void make_boundary(Assembly const& assembly, std::size_t body);
+  void make_pressure(Backend const& backend);
   void agree_on_step(double change);
   bool failed() const { return failure_.index < order_.particles; }
 
@@ -118,7 +119,8 @@ class NodalBody {
   double damping_loss_ = 0, largest_change_ = 0;
   bool observed_ = false;
   FailureSlot failure_;
-  std::unique_ptr<BodyHalo> halo_;  ///< nullptr on one rank
+  std::unique_ptr<BodyHalo> halo_;                       ///< nullptr on one rank
+  std::shared_ptr<ImplicitPressure> implicit_pressure_;  ///< nullptr: explicit
 };
 
 }  // namespace piola::nodal

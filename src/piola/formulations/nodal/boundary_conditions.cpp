@@ -17,6 +17,12 @@ std::vector<std::array<double, 3>> positions(Assembly const& assembly, Boundary:
   return X;
 }
 
+double along(FieldRef const& field, PrescribedDirection const& h, int D) {
+  double sum = 0;
+  for (int c = 0; c < D; ++c) sum += value_at(field, h.slot, c) * h.direction[c];
+  return sum;
+}
+
 }  // namespace
 
 Boundary::Boundary(Assembly const& assembly, std::size_t body, BodyInput const& of_body)
@@ -130,12 +136,24 @@ void Boundary::damp(BodyState& state, double factor) const {
   surface_.set_velocity(state.v);
 }
 
-void Boundary::hold_at_rest(BodyState& state) {
+void Boundary::remove_held(FieldRef const& field) {
   for (PrescribedDirection const& h : driven_.held()) {
-    double along = 0;
-    for (int c = 0; c < D_; ++c) along += value_at(state.v, h.slot, c) * h.direction[c];
-    for (int c = 0; c < D_; ++c) value_at(state.v, h.slot, c) -= along * h.direction[c];
+    double const by = along(field, h, D_);
+    for (int c = 0; c < D_; ++c) value_at(field, h.slot, c) -= by * h.direction[c];
   }
+}
+
+void Boundary::carry_held(FieldRef const& a, double dt) {
+  for (PrescribedDirection& h : driven_.held()) {
+    double const impulse = dt * along(a, h, D_);
+    h.at_start -= impulse;
+    h.work -= h.mass * impulse * h.mean_speed;
+  }
+  remove_held(a);
+}
+
+void Boundary::hold_at_rest(BodyState& state) {
+  remove_held(state.v);
   surface_.set_velocity(state.v);
 }
 
@@ -144,9 +162,8 @@ exec::ReproducibleSum Boundary::square_of_held(BodyState const& state) const {
   for (Index n = 0; n < state.boundary.held_count; ++n) {
     PrescribedDirection const& h = state.boundary.held[n];
     if (!is_local(own_, h.slot)) continue;
-    double along = 0;
-    for (int c = 0; c < D_; ++c) along += value_at(state.a, h.slot, c) * h.direction[c];
-    sum += h.mass * along * along;
+    double const a = along(state.a, h, D_);
+    sum += h.mass * a * a;
   }
   return sum;
 }

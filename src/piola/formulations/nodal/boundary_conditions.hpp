@@ -46,6 +46,10 @@ class Boundary {
   }
   /// Multiplies the velocities that no support prescribes.
   void damp(BodyState& state, double factor) const;
+  /// Removes the held directions of particles from a field of vectors.
+  void remove_held(FieldRef const& field);
+  /// As above for an acceleration of the whole step, which becomes a reaction.
+  void carry_held(FieldRef const& a, double dt);
   /// Removes from velocities what supports at rest do not allow.
   void hold_at_rest(BodyState& state);
   /// Whether a particle contributes to a surface place that supports hold.

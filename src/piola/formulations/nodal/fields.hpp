@@ -36,6 +36,7 @@ struct FieldNeeds {
   bool viscosity = false;
   bool solids = false;  ///< some cell has a solid in rate form
   bool offset = false;  ///< F starts from given values
+  bool implicit_pressure = false;
 };
 
 /// The one list of particle fields of the nodal formulation, and what loops get of them. Memory and checkpoints follow
@@ -80,6 +81,11 @@ struct Fields {
   ListedRef history{owner, "SolidHistory", "1", solid_values(dimension), Role::evolved, has.solids};
   ListedRef viscous{owner, "ViscousHistory", "1", viscous_values(dimension), Role::evolved, has.viscosity};
 
+  // Of an implicit pressure, in the last step and in the one before: pressure of the bulk modulus, tension positive;
+  // acceleration by it.
+  ListedRef pressure{owner, "BulkPressure", "Pa", 2, Role::evolved, has.implicit_pressure};
+  ListedRef bulk_a{owner, "BulkAcceleration", "m/s2", 2 * dimension, Role::evolved, has.implicit_pressure};
+
   // Derived, one of them: of lists rows (V Q_i k^T, P_i); of lattices rows (P_i, Q_i).
   ListedRef stress{owner, "StressOfSums", "Pa", dimension*(terms(dimension) + dimension), Role::derived, in_records};
   ListedRef resultants{owner,         "StressResultants", "Pa", dimension*(dimension + second(dimension)),
@@ -91,6 +97,12 @@ struct Fields {
   ListedRef cell{owner, "CellState", "1", 4, Role::derived};
   // At the start of the step: x, v, a and the least J; histories.
   ListedRef kept{owner, "MotionAtStepStart", "1", 3 * dimension + 1, Role::derived};
+  // Of an implicit pressure: resultants of a unit pressure; volume ratio of the cell, its change, or a pressure; mean
+  // velocity of the step.
+  ListedRef unit{owner,         "UnitPressureResultants", "1", dimension*(dimension + second(dimension)),
+                 Role::derived, has.implicit_pressure};
+  ListedRef ratio{owner, "CellVolumeRatio", "1", 1, Role::derived, has.implicit_pressure};
+  ListedRef mean_v{owner, "MeanVelocity", "m/s", dimension, Role::derived, has.implicit_pressure};
   ListedRef history_kept{owner, "SolidHistoryAtStepStart", "1", solid_values(dimension), Role::derived, has.solids};
   ListedRef viscous_kept{owner,        "ViscousHistoryAtStepStart", "1", viscous_values(dimension), Role::derived,
                          has.viscosity};

@@ -33,14 +33,21 @@ constexpr std::array parameters{
               Interval{0, 1}, 0.05},
     Parameter{"energy_tolerance", "1",
               "share of the largest energy by which total energy may rise and fall with the accelerations, as it does "
-              "in Verlet steps: steps are shortened to it; 0: steps are limited by stability alone",
-              Interval{0, 1}, 1e-3}};
+              "in Verlet steps: steps are shortened to it; 0: steps are limited by stability alone; default 1e-3, with "
+              "pressure = \"implicit\" 0",
+              Interval{0, 1}, no_default}};
 
 constexpr std::array<std::string_view, 5> assumption_words{"as_dimension", "plane_strain", "plane_stress",
                                                            "uniaxial_strain", "uniaxial_stress"};
-constexpr std::array choices{Choice{
-    "assumption", "about the directions that a body does not have; as_dimension: 1D uniaxial_strain, 2D plane_strain",
-    assumption_words}};
+constexpr std::array<std::string_view, 2> pressure_words{"explicit", "implicit"};
+constexpr std::array choices{
+    Choice{"assumption",
+           "about the directions that a body does not have; as_dimension: 1D uniaxial_strain, 2D plane_strain",
+           assumption_words},
+    Choice{"pressure",
+           "implicit: steps are not limited by pressure waves, which is faster above a Poisson's ratio of 0.49 in slow "
+           "motion; waves shorter than a step are lost",
+           pressure_words}};
 
 /// Columns of Diagnostics::more (observe.cpp).
 constexpr std::array diagnostics{DiagnosticInfo{"cell_jacobian_min", "1"}, DiagnosticInfo{"repeated_steps", "1"},
@@ -83,6 +90,23 @@ void check_solid(MaterialParameters const& material, bool stress_free, Problems&
                              laws()[static_cast<std::size_t>(material.law)].name));
 }
 
+/// Rejects what an implicit pressure does not support.
+void check_implicit(FormulationSpec const& spec, std::vector<MaterialParameters> const& materials, int dimension,
+                    bool stress_free, Problems& problems) {
+  bool split = true;
+  for (MaterialParameters const& material : materials) {
+    auto const& law = laws()[static_cast<std::size_t>(material.law)];
+    split = split && !is_hypoelastic(material) && law.volumetric_split &&
+            law.small_strain == laws()[static_cast<std::size_t>(materials[0].law)].small_strain;
+  }
+  bool const viscous = number_of(spec, "fluctuation_viscosity", 0) > 0 || number_of(spec, "shock_viscosity", 0) > 0;
+  if (split && !stress_free && !viscous && dimension > 1) return;
+  problems.add({},
+               "formulation: pressure = \"implicit\" needs two or three dimensions without a direction that is free of "
+               "stress, no viscosity, and a law whose energy splits into shape and volume (allowed: neo_hookean, "
+               "mooney_rivlin; linear_elastic for all materials) - take pressure = \"explicit\"");
+}
+
 }  // namespace
 
 Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters> const& materials, int dimension,
@@ -96,12 +120,15 @@ Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters
     check_solid(material, stress_free, problems);
     solids = true;
   }
+  bool const implicit_pressure = word_of(spec, choices, "pressure") == "implicit";
+  if (implicit_pressure) check_implicit(spec, materials, dimension, stress_free, problems);
   problems.raise_if_any();
   Options o;
+  o.implicit_pressure = implicit_pressure;
   o.least_mass = number_of(spec, "min_mass_ratio", 0.3);
   o.fluctuation_viscosity = number_of(spec, "fluctuation_viscosity", 0);
   o.shock_viscosity = number_of(spec, "shock_viscosity", 0);
-  o.energy_tolerance = number_of(spec, "energy_tolerance", 1e-3);
+  o.energy_tolerance = number_of(spec, "energy_tolerance", implicit_pressure ? 0 : 1e-3);
   o.stress_free = stress_free;
   o.cfl = std::isnan(cfl) ? 0 : cfl;
   o.solids = solids;

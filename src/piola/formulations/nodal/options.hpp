@@ -12,8 +12,9 @@ struct Options {
   double fluctuation_viscosity = 0, shock_viscosity = 0;  ///< see Viscosity
   double energy_tolerance = 1e-3;  ///< error of Verlet steps, relative to the largest energy; 0: any
   bool solids = false;             ///< whether some material is a solid in rate form
-  bool stress_free = false;        ///< plane stress, uniaxial stress
-  double cfl = 0;                  ///< step in units of spacing over p-wave speed at rest; 0: from the stability limit
+  bool implicit_pressure = false;
+  bool stress_free = false;  ///< plane stress, uniaxial stress
+  double cfl = 0;            ///< step in units of spacing over p-wave speed at rest; 0: from the stability limit
 };
 
 /// Registry entry: keys, meanings, defaults, laws.

@@ -2,6 +2,7 @@
 #include "piola/formulations/nodal/solver.hpp"
 #include "piola/formulations/common/bodies_solver.hpp"
 #include "piola/formulations/nodal/energy_descent.hpp"
+#include "piola/formulations/nodal/implicit_pressure.hpp"
 #include "piola/formulations/nodal/observe.hpp"
 #include "piola/formulations/nodal/stability.hpp"
 #include <algorithm>
@@ -20,7 +21,10 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
       : BodiesSolver(assembly), backend_(choose_backend(assembly.backend.c_str())) {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
       Options options = read_options(assembly.formulations[k], materials_of(assembly, k), set_.dimension, assembly.cfl);
-      if (assembly.minimises) options.fluctuation_viscosity = options.shock_viscosity = 0;
+      if (assembly.minimises) {
+        options.fluctuation_viscosity = options.shock_viscosity = 0;
+        options.implicit_pressure = false;
+      }
       bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, backend_));
       monitors_.push_back(std::make_unique<StabilityMonitor>(*bodies_.back(), backend_));
       if (assembly.minimises) descents_.emplace_back(*bodies_.back(), backend_);
@@ -184,7 +188,9 @@ void Solver::describe(std::size_t k, FailureSlot const& slot, Failure& f) const 
   NodalBody& body = *bodies_[k];
   if (!comm::is_parallel()) update_output_fields(body);
   double const least = NodalBody::value(body.state().cell, slot.index, 2);
-  f.what = least <= 0 ? "is inverted" : "has a deformation that is not a number";
+  f.what = slot.code == ImplicitPressure::not_converged ? "is in a body whose implicit pressure does not converge"
+           : least <= 0                                 ? "is inverted"
+                                                        : "has a deformation that is not a number";
   f.values = {{"least det F in its cell", least},
               {"det F", determinant(body.F(slot.index))},
               {"neighbours", neighbours_of_failed(k, slot.index)},

@@ -44,6 +44,7 @@ struct MirroredParticle {
 };
 
 struct BodyState;
+class ImplicitPressure;
 
 /// Neighbours of a cloud, a list per particle: the weight s, and the gradients of a pair in both directions.
 struct GradientList {
@@ -85,6 +86,9 @@ struct BodyState : Fields {
   FieldRef motion_for_neighbours, stress_for_neighbours;
 
   BoundaryState boundary;
+  ImplicitPressure* implicit_pressure = nullptr;  ///< nullptr: the pressure is explicit
+  /// The motion of a step by the pressure of the bulk modulus, and by the velocity that the first kick has left.
+  void (*move_by_pressure)(ImplicitPressure& pressure, double dt) = nullptr;
   bool marks = false;         ///< forces at x also store F^T F in C_measured
   double* partial = nullptr;  ///< room for the partial results of blocks
   FailureSlot* failure = nullptr;
@@ -97,12 +101,15 @@ struct BodyState : Fields {
 struct Backend {
   char const* name;
   int lanes;
-  void (*step)(BodyState& body, double dt);       ///< one step of one body
-  void (*accelerate)(BodyState& body);            ///< a of the internal forces alone, at x
-  void (*update_output_fields)(BodyState& body);  ///< computes F, P and cell, which steps do not
-  double (*largest_change)(BodyState& body);      ///< of a strain since the last measurement of the step
-  void (*keep)(BodyState& body);                  ///< saves x, v, a and the least J at the start of a step
-  void (*restore)(BodyState& body);               ///< restores them
+  void (*step)(BodyState& body, double dt);         ///< one step of one body
+  void (*accelerate)(BodyState& body);              ///< a of the internal forces alone, at x
+  void (*update_output_fields)(BodyState& body);    ///< computes F, P and cell, which steps do not
+  void (*linearise_pressure)(BodyState& body);      ///< `unit` and `ratio` at x
+  void (*change_of_ratio)(BodyState& body);         ///< `ratio`: change by the vectors in x, linearised
+  void (*accelerate_by_pressure)(BodyState& body);  ///< a by the pressures in `ratio`, linearised
+  double (*largest_change)(BodyState& body);        ///< of a strain since the last measurement of the step
+  void (*keep)(BodyState& body);                    ///< saves x, v, a and the least J at the start of a step
+  void (*restore)(BodyState& body);                 ///< restores them
   /// Subtracts the gradient of positions at the particles from `offset`. `centroid`: of cells, relative to the
   /// particles [m].
   void (*subtract_gradients)(BodyState& body, FieldRef const& centroid);

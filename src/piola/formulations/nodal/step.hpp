@@ -4,6 +4,7 @@
 #include "piola/formulations/nodal/boundary_passes.hpp"
 #include "piola/formulations/nodal/mirror_passes.hpp"
 #include "piola/formulations/nodal/mixed_material_lanes.hpp"
+#include "piola/formulations/nodal/pressure_passes.hpp"
 #include "piola/formulations/nodal/stress_points.hpp"
 
 /// One step of the nodal formulation: kick, drift, forces, kick. Theory: docs/theory/nodal.md.
@@ -18,10 +19,17 @@ class Step {
   void operator()(double dt) {
     if (b_.boundary.follows) turn_loads(false);
     if (dt > 0) drive(dt);  // v^(n+1/2) in prescribed directions
-    exec::for_each(b_.slots, KickAndDrift<D>{dt, read(b_.a), read(b_.v), read(b_.x), write(b_.v), write(b_.x)});
+    bool const implicit = b_.implicit_pressure != nullptr && dt > 0;
+    if (implicit) {
+      exec::for_each(b_.slots, Kick<D>{dt, read(b_.a), read(b_.v), write(b_.v)});
+      b_.move_by_pressure(*b_.implicit_pressure, dt);
+    } else {
+      exec::for_each(b_.slots, KickAndDrift<D>{dt, read(b_.a), read(b_.v), read(b_.x), write(b_.v), write(b_.x)});
+    }
     accelerate(dt);
     if (b_.boundary.follows) turn_loads(true);
-    exec::for_each_item(b_.boundary.loaded_count, WorkOfLoads<D>{dt, b_.boundary.loaded, read(b_.v), read(b_.v)});
+    View const mean = read(implicit ? b_.mean_v : b_.v);
+    exec::for_each_item(b_.boundary.loaded_count, WorkOfLoads<D>{dt, b_.boundary.loaded, mean, mean});
     exec::for_each_item(b_.boundary.loaded_count, AddLoads<D>{true, b_.boundary.loaded, read(b_.a), write(b_.a)});
     exec::for_each_item(b_.boundary.mirrored_count, StayOnPlanes<D>{b_.boundary.mirrored, write(b_.a)});
     exec::for_each(b_.slots, Kick<D>{dt, read(b_.a), read(b_.v), write(b_.v)});
@@ -41,6 +49,25 @@ class Step {
     halo_.refresh(b_.x);
     SubtractGradients<D> const pass{read(centroid), read(b_.offset), write(b_.offset)};
     fused(b_.slots, exec::erased(pass));
+  }
+
+  /// See Backend.
+  void linearise_pressure() {
+    halo_.refresh(b_.x);
+    with_law(b_.materials[0].material, [&](auto const& law) {
+      LinearisePressure<D, std::decay_t<decltype(law)>::small_strain> const pass{resultants(), read(b_.offset),
+                                                                                 write(b_.unit), write(b_.ratio)};
+      fused(b_.slots, exec::erased(pass));
+    });
+  }
+  void change_of_ratio() {
+    halo_.refresh(b_.x);
+    ChangeOfRatio<D> const pass{read(b_.unit), write(b_.ratio)};
+    fused(b_.slots, exec::erased(pass));
+  }
+  void accelerate_by_pressure() {
+    exec::for_each(b_.slots, StressOfPressure<D>{resultants(), read(b_.unit), read(b_.ratio)});
+    sum_forces();
   }
 
   /// Computes the fields that steps leave as they are, for output and energies: F, P and cell at x.
@@ -64,6 +91,12 @@ class Step {
   ListSums<D> of_motion() const { return {b_.list, read_neighbours(b_.motion_for_neighbours).data, nullptr}; }
   ListSums<D> of_stress() const {
     return {b_.list, read_neighbours(b_.motion_for_neighbours).data, read_neighbours(b_.stress_for_neighbours).data};
+  }
+
+  StressResultants<D> resultants() const {
+    return {b_.particles,         read_reference(b_.V),   read_reference(b_.L),
+            read_reference(b_.k), read_reference(b_.own), write(b_.stress_for_neighbours),
+            write(b_.a)};
   }
 
   /// The first sweep, block by block, with the pass that uses its sums.
@@ -126,23 +159,18 @@ class Step {
     MixedMaterialLanes<D> const of_law_before(b_, group_of(range.first), range.first);
     Constants constants = range.constants;
     constants.least_share = b_.constants.least_share;
+    if (!Observed && b_.implicit_pressure != nullptr) constants.kappa = 0;
     auto const update_with = [&](auto const& law) {
       using Law = std::decay_t<decltype(law)>;
       UpdateStress<D, Law, Observed> const update{law,
                                                   constants,
-                                                  b_.particles,
-                                                  read_reference(b_.V),
-                                                  read_reference(b_.L),
-                                                  read_reference(b_.k),
-                                                  read_reference(b_.own),
+                                                  resultants(),
                                                   read(b_.offset),
                                                   read(b_.C_measured),
                                                   write(b_.C_measured),
                                                   b_.marks,
                                                   read(b_.kept),
                                                   {dt, b_.viscosity, read(b_.viscous), write(b_.viscous)},
-                                                  write(b_.stress_for_neighbours),
-                                                  write(b_.a),
                                                   write(b_.change),
                                                   write(b_.F),
                                                   write(b_.P),

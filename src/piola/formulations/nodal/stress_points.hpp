@@ -3,6 +3,7 @@
 #include "piola/formulations/nodal/passes.hpp"
 #include "piola/formulations/nodal/solid_cells.hpp"
 #include "piola/formulations/nodal/stress_free.hpp"
+#include "piola/formulations/nodal/stress_resultants.hpp"
 #include "piola/formulations/nodal/viscosity.hpp"
 #include "piola/materials/laws.hpp"
 #include "piola/math/embedding.hpp"
@@ -105,21 +106,20 @@ struct CellEnergy {
 /// V_a (P_a sum_b G_ab + Q_a sum_b K_ab). Records the first particle with a point of J <= 0 or not a number.
 template <int D, class Law, bool Observed>
 struct UpdateStress {
-  static constexpr int second = Quadratic<D>::second, points = Quadratic<D>::points, numbers = MotionSums<D>::numbers;
+  static constexpr int points = Quadratic<D>::points, numbers = MotionSums<D>::numbers;
   Law law;
   Constants constants;
-  Index particles;  ///< slots after them are empty
-  ReferenceView V, L, k, own;
+  StressResultants<D> out;
   View offset, C_measured;
   WriteView C_marked;
   bool marks;
   View kept;
   Viscosity<D> viscosity;
-  WriteView stress, a, change, F_out, P_out, cell;
+  WriteView change, F_out, P_out, cell;
   FailureSlot* failure;
 
   PIOLA_INLINE_FN void operator()(Index i, exec::Scratch const& in) const {
-    CellPoints<D> at = gradients(i, in);
+    CellPoints<D> at = cell_points<D>(out.L, i, in);
     if (offset.data != nullptr) at.F = at.F + offset.matrix<D, Lanes>(i);
     CellEnergy<Law, points, Observed> energy{law, constants.kappa, constants.kappa_local, {}, {}, {}, {}, {}, {}};
     for (int q = 0; q < points; ++q) energy.F[q] = embed<D>(at.at(q));
@@ -138,7 +138,9 @@ struct UpdateStress {
       if (any(!(energy.least_J > maximum(allowed, Lanes(0.0))))) record_failure(i, energy.least_J, allowed);
       change.scalar(i, largest_change(i, at.F), 0);
       change.scalar(i, energy.least_J, 1);
-      put_stress(i, energy);
+      Lanes rows[D][numbers];
+      out.rows_of(i, energy.P, rows);
+      out.put(i, rows);
     }
   }
 
@@ -159,79 +161,6 @@ struct UpdateStress {
       }
     return most;
   }
-  PIOLA_INLINE_FN CellPoints<D> gradients(Index i, exec::Scratch const& in) const {
-    CellPoints<D> r;
-    LanesOfField const spread = lanes_of(L, i);
-    for (int c = 0; c < D; ++c) {
-      for (int J = 0; J < D; ++J) r.F(c, J) = load<Lanes>(in.at(i, c * numbers + J));
-      for (int m = 0; m < D; ++m)
-        for (int J = 0; J < D; ++J) {
-          Lanes sum = Lanes(0.0);
-          for (int K = m; K < D; ++K)
-            sum = sum + load<Lanes>(in.at(i, c * numbers + D + Quadratic<D>::at(J, K))) * spread[K * D + m];
-          r.along[m](c, J) = sum;
-        }
-    }
-    return r;
-  }
-
-  PIOLA_INLINE_FN void put_stress(Index i, CellEnergy<Law, points, Observed> const& energy) const {
-    LanesOfField const spread = lanes_of(L, i), sums = lanes_of(own, i);
-    Lanes const volume = V.scalar<Lanes>(i);
-    Mat<D, Lanes> mean, along[D];
-    for (int q = 0; q < points; ++q) {
-      Mat<D, Lanes> const P = (1.0 / points) * restrict_to<D>(energy.P[q]);
-      mean = q == 0 ? P : mean + P;
-      for (int m = 0; m < D; ++m) {
-        if (q == 0)
-          along[m] = Quadratic<D>::point(q, m) * P;
-        else
-          along[m] = Quadratic<D>::point(q, m) > 0 ? along[m] + P : along[m] - P;
-      }
-    }
-    for (int c = 0; c < D; ++c) {
-      Lanes row[numbers], own_force = Lanes(0.0);  // P, Q
-      for (int J = 0; J < D; ++J) row[J] = mean(c, J);
-      for (int J = 0; J < D; ++J)
-        for (int K = J; K < D; ++K) {
-          Lanes sum = Lanes(0.0);
-          for (int m = 0; m < D; ++m) {
-            sum = sum + along[m](c, J) * spread[K * D + m];
-            if (J != K) sum = sum + along[m](c, K) * spread[J * D + m];
-          }
-          row[D + Quadratic<D>::at(J, K)] = sum;
-        }
-      if (i + lane_count > particles) clear_empty(i, row);
-      for (int n = 0; n < numbers; ++n) own_force = own_force + row[n] * sums[n];
-      a.scalar(i, Lanes(volume * own_force), c);
-      put_row(i, c, row);
-    }
-  }
-  /// Slots without a particle must hold finite numbers, which neighbours on a lattice read.
-  PIOLA_FN void clear_empty(Index i, Lanes (&row)[numbers]) const {
-    double here[lane_count];
-    for (int l = 0; l < lane_count; ++l) here[l] = i + l < particles ? 1 : 0;
-    for (Lanes& number : row) number = select(load<Lanes>(here) > 0.5, number, Lanes(0.0));
-  }
-  /// Component c of (P, Q) for lattices; in records of lists (V Q k^T, P), because weights s do not hold the volume.
-  PIOLA_INLINE_FN void put_row(Index i, int c, Lanes const (&row)[numbers]) const {
-    if (stress.particle_stride == 1) {
-      for (int n = 0; n < numbers; ++n) stress.scalar(i, row[n], c * numbers + n);
-      return;
-    }
-    using R = Records<D>;
-    LanesOfField const to_H = lanes_of(k, i);
-    Lanes const volume = V.scalar<Lanes>(i);
-    Lanes record[R::used];
-    for (int m = 0; m < R::terms; ++m) {
-      Lanes sum = row[D] * to_H[m * second];
-      for (int n = 1; n < second; ++n) sum = sum + row[D + n] * to_H[m * second + n];
-      record[m] = volume * sum;
-    }
-    for (int J = 0; J < D; ++J) record[R::terms + J] = row[J];
-    store_records(stress.data + i * stress.particle_stride + c * R::used, stress.particle_stride, record);
-  }
-
   PIOLA_FN void put_output_fields(Index i, CellPoints<D> const& at,
                                   CellEnergy<Law, points, Observed> const& energy) const {
     F_out.matrix<D>(i, at.F);

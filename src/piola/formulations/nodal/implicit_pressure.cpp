@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/nodal/implicit_pressure.hpp"
+#include "piola/base/contracts.hpp"
+#include "piola/base/errors.hpp"
+#include "piola/exec/host_loops.hpp"
+#include "piola/formulations/nodal/particle_vectors.hpp"
+#include <fmt/format.h>
+
+namespace piola::nodal {
+namespace {
+
+/// Of the residual over the right side, in the norm of the preconditioner: larger ones spoil the energy. The first pass
+/// only improves the midpoint.
+constexpr double tolerance = 1e-4, tolerance_of_first = 1e-2;
+constexpr int most_iterations = 400;
+/// Passes end when one takes this many iterations or fewer.
+constexpr int most_passes = 6, few_iterations = 3;
+
+NodalBody& checked(NodalBody& body) {
+  Problems problems;
+  auto const refuse = [&](std::string_view what) {
+    problems.add({}, fmt::format("body '{}': pressure = \"implicit\" is not for {} - take pressure = \"explicit\"",
+                                 body.body().name, what));
+  };
+  if (body.shared()) refuse("runs on several ranks");
+  if (!body.images().empty()) refuse("bodies with mirror planes");
+  if (body.state().boundary.surface != nullptr)
+    refuse("supports that hold the surface (allowed: hold = \"particles\")");
+  problems.raise_if_any();
+  return body;
+}
+
+}  // namespace
+
+ImplicitPressure::ImplicitPressure(NodalBody& body, Backend const& backend)
+    : body_(checked(body)), backend_(backend), preconditioner_(body, backend.lanes) {}
+
+ImplicitPressure::Vector ImplicitPressure::ratios() const {
+  Vector all(static_cast<std::size_t>(body_.particles()));
+  for (Index a = 0; a < body_.particles(); ++a) all[static_cast<std::size_t>(a)] = value_at(body_.state().ratio, a, 0);
+  return all;
+}
+
+ImplicitPressure::Vector ImplicitPressure::change_of_ratio(Vector const& by) {
+  ParticleVectors(body_).put(by, 1, body_.state().x);
+  backend_.change_of_ratio(body_.state());
+  return ratios();
+}
+
+/// By pressures, in directions that no support holds.
+ImplicitPressure::Vector ImplicitPressure::accelerations(Vector const& pressure) {
+  BodyState& s = body_.state();
+  for (Index a = 0; a < body_.particles(); ++a) value_at(s.ratio, a, 0) = pressure[static_cast<std::size_t>(a)];
+  backend_.accelerate_by_pressure(s);
+  body_.boundary().remove_held(s.a);
+  return ParticleVectors(body_).values_of(s.a);
+}
+
+ImplicitPressure::Vector ImplicitPressure::apply(Vector const& pressure) {
+  Vector result = change_of_ratio(accelerations(pressure));
+  for (Index a = 0; a < body_.particles(); ++a) {
+    auto const k = static_cast<std::size_t>(a);
+    result[k] = pressure[k] / body_.material(a).constants.kappa - tau_ * result[k];
+  }
+  return result;
+}
+
+/// sum V u w, in which the matrix is symmetric.
+double ImplicitPressure::product(Vector const& u, Vector const& w) const {
+  return sum_over_slots(false, body_.own(), [&](Index a) {
+    auto const k = static_cast<std::size_t>(a);
+    return body_.volume(a) * u[k] * w[k];
+  });
+}
+
+/// Whether the iteration has converged.
+bool ImplicitPressure::solve(Vector const& wanted, double accuracy, Vector& pressure) {
+  Vector r = apply(pressure), z, direction;
+  for (std::size_t k = 0; k < r.size(); ++k) r[k] = wanted[k] - r[k];
+  if (!(scale_ > 0)) {
+    preconditioner_.solve(wanted, z);
+    scale_ = product(wanted, z);
+  }
+  double const aim = accuracy * accuracy * scale_;
+  preconditioner_.solve(r, z);
+  direction = z;
+  double square = product(r, z);
+  for (iterations_ = 0; iterations_ < most_iterations && square > aim; ++iterations_) {
+    Vector const q = apply(direction);
+    double const length = square / product(direction, q);
+    for (std::size_t k = 0; k < r.size(); ++k) {
+      pressure[k] += length * direction[k];
+      r[k] -= length * q[k];
+    }
+    preconditioner_.solve(r, z);
+    double const next = product(r, z);
+    for (std::size_t k = 0; k < r.size(); ++k) direction[k] = z[k] + next / square * direction[k];
+    square = next;
+  }
+  return square <= aim;
+}
+
+void ImplicitPressure::move(double dt) {
+  PIOLA_EXPECTS(dt > 0);
+  ParticleVectors const vectors(body_);
+  BodyState& s = body_.state();
+  int const D = s.dimension;
+  tau_ = 0.25 * dt * dt;
+  scale_ = 0;
+  preconditioner_.prepare(tau_);
+  Vector const x = vectors.values_of(s.x), v = vectors.values_of(s.v);
+  Vector middle(x.size()), by_velocity(x.size()), pressure(static_cast<std::size_t>(body_.particles()));
+  vectors.each_particle([&](Index i) {
+    for (int c = 0; c < D; ++c) {
+      std::size_t const k = vectors.place(i, c);
+      by_velocity[k] = 0.5 * dt * v[k];
+      middle[k] = x[k] + by_velocity[k] + tau_ * (2 * value_at(s.bulk_a, i, c) - value_at(s.bulk_a, i, D + c));
+    }
+    pressure[static_cast<std::size_t>(i)] = 2 * value_at(s.pressure, i, 0) - value_at(s.pressure, i, 1);
+  });
+  backend_.linearise_pressure(s);
+  Vector const before = ratios();
+  bool converged = true;
+  for (int pass = 0; converged && pass < most_passes && (pass < 2 || iterations_ > few_iterations); ++pass) {
+    if (pass > 0) {
+      Vector const a = accelerations(pressure);
+      for (std::size_t k = 0; k < x.size(); ++k) middle[k] = x[k] + by_velocity[k] + tau_ * a[k];
+    }
+    vectors.put(middle, 1, s.x);
+    backend_.linearise_pressure(s);
+    Vector wanted = change_of_ratio(by_velocity);
+    for (std::size_t k = 0; k < wanted.size(); ++k) wanted[k] += before[k] - 1;
+    converged = solve(wanted, pass == 0 ? tolerance_of_first : tolerance, pressure);
+  }
+  if (!converged) exec::record(s.failure, 0, not_converged);
+  for (Index a = 0; a < body_.particles(); ++a) value_at(s.ratio, a, 0) = pressure[static_cast<std::size_t>(a)];
+  backend_.accelerate_by_pressure(s);
+  body_.boundary().carry_held(s.a, dt);
+  Vector const a = vectors.values_of(s.a);
+  vectors.each_particle([&](Index i) {
+    for (int c = 0; c < D; ++c) {
+      std::size_t const k = vectors.place(i, c);
+      value_at(s.mean_v, i, c) = v[k] + 0.5 * dt * a[k];
+      value_at(s.x, i, c) = x[k] + dt * v[k] + 0.5 * dt * dt * a[k];
+      value_at(s.v, i, c) = v[k] + dt * a[k];
+      if (!converged) continue;
+      value_at(s.bulk_a, i, D + c) = value_at(s.bulk_a, i, c);
+      value_at(s.bulk_a, i, c) = a[k];
+    }
+    if (!converged) return;
+    value_at(s.pressure, i, 1) = value_at(s.pressure, i, 0);
+    value_at(s.pressure, i, 0) = pressure[static_cast<std::size_t>(i)];
+  });
+}
+
+}  // namespace piola::nodal
