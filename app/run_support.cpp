@@ -103,6 +103,9 @@ std::string end_report(CaseOutcome const& outcome, std::filesystem::path const& 
   text +=
       fmt::format("  energy: {} at start, {} at end, largest rise {} of it{}\n", quantity_text(s.energy_initial, "J"),
                   quantity_text(s.energy_final, "J"), number_text(s.energy_max_increase, 2), dissipation_text(s));
+  if (s.relaxation && s.relaxation->at_rest)
+    text += fmt::format("  at rest: forces out of balance {} of their largest, {} of the displacement left\n",
+                        number_text(s.relaxation->residual, 2), number_text(s.relaxation->left, 2));
   if (s.linear_drift && s.angular_drift)
     text += fmt::format("  momentum drift: linear {}, angular {} of its scale\n", number_text(*s.linear_drift, 2),
                         number_text(*s.angular_drift, 2));

@@ -139,6 +139,13 @@ def relaxed(formulation):
     return made, plain(formulation)
 
 
+def descended(formulation):
+    """As above, by conjugate gradients."""
+    made, without = relaxed(formulation)
+    made["run"] |= {"relax_method": "conjugate_gradients"}
+    return made, without
+
+
 def held_surface(formulation):
     """A packed block held on its face, and by the particles along it."""
     def held(what):
@@ -328,6 +335,7 @@ FEATURES = {
     "body forces, gravity": load(acceleration=["0", "-9.81"]),
     "damping": with_run(damping=100),
     "relaxation to rest": relaxed,
+    "relaxation by conjugate gradients": descended,
     "contact between bodies": contact(),
     "contact with a body of another formulation": lambda f: contact(other="jst_sph" if f == "nodal" else "nodal")(f),
     "friction between bodies": friction,

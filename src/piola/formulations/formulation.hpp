@@ -71,7 +71,7 @@ struct StepEstimate {
   std::string limit;   ///< what limits the step, in words
 };
 
-/// What an iteration of an energy minimisation has reached.
+/// State and progress of an energy minimisation in one iteration.
 struct Descent {
   double unbalanced = 0;  ///< sqrt(sum m |a|^2) of free accelerations at its start [N/kg^0.5]
   double released = 0;    ///< fall of the potential energy [J]

@@ -2,6 +2,7 @@
 #include "piola/output/summary.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/output/atomic_file.hpp"
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace piola {
@@ -71,6 +72,7 @@ std::string to_json(Summary const& s) {
   if (s.relaxation) {
     document["relaxation"] = {
         {"at_rest", s.relaxation->at_rest}, {"residual", s.relaxation->residual}, {"stops", s.relaxation->stops}};
+    if (std::isfinite(s.relaxation->left)) document["relaxation"]["left"] = s.relaxation->left;
   }
   for (auto const& [name, value] : s.set_up) document["set_up"][name] = value;
   for (auto const& [name, value] : s.seconds) document["seconds"][name] = value;

@@ -21,7 +21,8 @@ struct MeasuredQuantity {
 struct RelaxationReport {
   bool at_rest = false;
   double residual = 0;  ///< unbalanced force / its maximum in the run
-  long stops = 0;       ///< how often the bodies were brought to rest
+  long stops = 0;       ///< how often the bodies were brought to rest, or iterations
+  double left = 0;      ///< estimate of the remaining displacement, relative to the present one
 };
 
 /// Values recorded by a guard.

@@ -215,7 +215,7 @@ void add_observed(Summary& summary, Simulation const& s, RunObservers const& obs
     journal.note(repartition_text(*repartition_statistics));
   if (!observers.relaxation.active()) return;
   RelaxationStatus const& rest = observers.relaxation.rest();
-  summary.relaxation = {rest.reached, rest.residual, rest.stops};
+  summary.relaxation = {rest.reached, rest.residual, rest.stops, rest.left};
 }
 
 /// Checks that the folder may be used, and locks it against other processes.

@@ -38,6 +38,13 @@ Step choose_step(double stable, RunSpec const& run, TimeState& moment) {
   return {rest, rest != dt || moment.time + dt != run.end};
 }
 
+/// Takes a step, or an iteration of a relaxation that minimises the energy. Whether the bodies are at rest.
+bool advance(Formulation& formulation, double time, double dt, Relaxation* relaxation) {
+  if (relaxation != nullptr && relaxation->minimises()) return relaxation->descend(formulation, time, dt);
+  formulation.step(time, dt);
+  return relaxation != nullptr && relaxation->after_step(formulation, dt);
+}
+
 /// Shows a step to the observers. The end of the run if one of them objects; those after it, checkpoints among them, do
 /// not see the step then and keep it as no good state.
 std::optional<LoopResult> show(Formulation& formulation, TimeState const& moment,
@@ -71,12 +78,7 @@ LoopResult march(Formulation& formulation, RunSpec const& run, TimeState& moment
     if (cut_to_end) {
       for (Observer* observer : observers) observer->before_shortened_step(formulation, moment);
     }
-    if (relaxation != nullptr && relaxation->minimises()) {
-      moment.at_rest = relaxation->descend(formulation, moment.time, dt);
-    } else {
-      formulation.step(moment.time, dt);
-      if (relaxation != nullptr) moment.at_rest = relaxation->after_step(formulation, dt);
-    }
+    moment.at_rest = advance(formulation, moment.time, dt, relaxation);
 
     moment.time = dt == run.end - moment.time ? run.end : moment.time + dt;
     moment.step += 1;

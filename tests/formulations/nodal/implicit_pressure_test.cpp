@@ -24,15 +24,15 @@ Assembly column(std::string const& pressure, double jitter = 0,
   return a;
 }
 
-struct Run {
+struct Motion {
   Diagnostics end;
   Values displacement;
   double energy_error = 0;  ///< largest, relative to the start
   int steps = 0;
 };
-Run run(Assembly const& a, double until) {
+Motion run(Assembly const& a, double until) {
   auto const f = make_formulation(a);
-  Run r;
+  Motion r;
   double const start = f->diagnose().total_energy();
   double time = 0;
   while (time < until) {
@@ -52,7 +52,7 @@ Run run(Assembly const& a, double until) {
 
 TEST(NodalImplicitPressure, MovesAsExplicitStepsDoInAFractionOfThem) {
   for (double const jitter : {0.0, 0.3}) {
-    Run const many = run(column("explicit", jitter), 0.2), few = run(column("implicit", jitter), 0.2);
+    Motion const many = run(column("explicit", jitter), 0.2), few = run(column("implicit", jitter), 0.2);
     EXPECT_LT(8 * few.steps, many.steps) << jitter;
     EXPECT_LT(largest_difference(few.displacement, many.displacement), 0.01 * largest(many.displacement)) << jitter;
     EXPECT_LT(few.energy_error, 1e-3) << jitter;
@@ -63,7 +63,7 @@ TEST(NodalImplicitPressure, TakesTheLawsWhoseEnergySplits) {
   MaterialParameters mooney = rubber("mooney_rivlin", nu);
   mooney.value[3] = 0.8;  // of c10
   for (auto const& m : {mooney, rubber("linear_elastic", nu)}) {
-    Run const many = run(column("explicit", 0, m), 0.05), few = run(column("implicit", 0, m), 0.05);
+    Motion const many = run(column("explicit", 0, m), 0.05), few = run(column("implicit", 0, m), 0.05);
     EXPECT_LT(largest_difference(few.displacement, many.displacement), 0.02 * largest(many.displacement));
     EXPECT_LT(few.energy_error, 1e-3);
   }
@@ -76,7 +76,7 @@ TEST(NodalImplicitPressure, KeepsMomentaOfATumblingBlock) {
     a.materials.assign(1, rubber("neo_hookean", nu));
     for (auto& f : a.formulations) f = {"nodal", {}, {{"pressure", "implicit"}}};
     auto const start = make_formulation(a)->diagnose();
-    Run const r = run(a, 0.05);
+    Motion const r = run(a, 0.05);
     double const scale = std::sqrt(2 * start.kinetic_energy * 1100);
     for (std::size_t c = 0; c < 3; ++c) {
       EXPECT_NEAR(r.end.linear_momentum[c], start.linear_momentum[c], 1e-11 * scale);
@@ -125,7 +125,7 @@ TEST(NodalImplicitPressure, TakesBodiesThatAreNotSlender) {
   Assembly a = nodal_body(brick(3, 0, {14, 14, 14}), rubber("neo_hookean", nu));
   choose(a, "pressure", "implicit");
   give_velocity(a, [](Point const& X) { return Point{4 * X[1], -4 * X[0], X[2] * X[0]}; });
-  Run const r = run(a, 0.004);
+  Motion const r = run(a, 0.004);
   EXPECT_LT(r.energy_error, 1e-3);
 }
 

@@ -271,6 +271,31 @@ TEST(NodalSupports, HoldDriveAndReleaseAndCountTheirWork) {
   EXPECT_EQ(f->diagnose().external_work, pulled.external_work) << "released";
 }
 
+// The step limit is objective: only its random start and the accuracy of the measured frequency, 5 % of the square,
+// tell directions apart.
+TEST(NodalStep, TakesAsManyStepsIfTheCaseIsRotated) {
+  for (double const jitter : {0.0, 0.3}) {
+    std::vector<int> steps;
+    for (double const angle : {0.0, 0.7}) {
+      double const c = std::cos(angle), s = std::sin(angle);
+      Assembly a = tumbling_box(3, 5, jitter);
+      for (auto& f : a.formulations) f = {"nodal", {}, {}};
+      for (Point& v : a.initial_velocity) v = {c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]};
+      displace(a, [&](Point const& X) { return Point{(c - 1) * X[0] - s * X[1], s * X[0] + (c - 1) * X[1], 0}; });
+      auto const f = make_formulation(a);
+      int count = 0;
+      for (double time = 0; time < 0.05; ++count) {
+        double const dt = f->stable_time_step();
+        f->step(time, dt);
+        time += dt;
+      }
+      steps.push_back(count);
+    }
+    EXPECT_GT(steps[0], 100);
+    EXPECT_NEAR(steps[1], steps[0], 0.03 * steps[0]) << jitter;
+  }
+}
+
 TEST(NodalLoads, OfConstantAccelerationMoveAFreeBodyAsAWhole) {
   Assembly a = nodal_body(brick(3, 0.3));
   load(a, {"0", "-9.81", "2"}, everywhere);

@@ -81,7 +81,7 @@ struct Fields {
   ListedRef history{owner, "SolidHistory", "1", solid_values(dimension), Role::evolved, has.solids};
   ListedRef viscous{owner, "ViscousHistory", "1", viscous_values(dimension), Role::evolved, has.viscosity};
 
-  // Of an implicit pressure, in the last step and in the one before: pressure of the bulk modulus, tension positive;
+  // Implicit pressure, in the last step and in the one before: pressure of the bulk modulus, tension positive;
   // acceleration by it.
   ListedRef pressure{owner, "BulkPressure", "Pa", 2, Role::evolved, has.implicit_pressure};
   ListedRef bulk_a{owner, "BulkAcceleration", "m/s2", 2 * dimension, Role::evolved, has.implicit_pressure};
@@ -97,7 +97,7 @@ struct Fields {
   ListedRef cell{owner, "CellState", "1", 4, Role::derived};
   // At the start of the step: x, v, a and the least J; histories.
   ListedRef kept{owner, "MotionAtStepStart", "1", 3 * dimension + 1, Role::derived};
-  // Of an implicit pressure: resultants of a unit pressure; volume ratio of the cell, its change, or a pressure; mean
+  // Implicit pressure: resultants of a unit pressure; volume ratio of the cell, its change, or a pressure; mean
   // velocity of the step.
   ListedRef unit{owner,         "UnitPressureResultants", "1", dimension*(dimension + second(dimension)),
                  Role::derived, has.implicit_pressure};

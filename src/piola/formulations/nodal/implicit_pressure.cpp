@@ -9,8 +9,8 @@
 namespace piola::nodal {
 namespace {
 
-/// Of the residual over the right side, in the norm of the preconditioner: larger ones spoil the energy. The first pass
-/// only improves the midpoint.
+/// Largest residual over the right side, in the norm of the preconditioner: larger ones spoil the energy. The first
+/// pass only improves the midpoint.
 constexpr double tolerance = 1e-4, tolerance_of_first = 1e-2;
 constexpr int most_iterations = 400;
 /// Passes end when one takes this many iterations or fewer.
@@ -100,57 +100,73 @@ bool ImplicitPressure::solve(Vector const& wanted, double accuracy, Vector& pres
   return square <= aim;
 }
 
-void ImplicitPressure::move(double dt) {
-  PIOLA_EXPECTS(dt > 0);
+/// The pressures of a step from x with the mean change by_velocity = dt/2 v, with D at midpoints: the first one from
+/// the accelerations of the last two steps. Whether the iterations have converged.
+bool ImplicitPressure::solve_step(Vector const& x, Vector const& by_velocity, Vector& pressure) {
   ParticleVectors const vectors(body_);
   BodyState& s = body_.state();
-  int const D = s.dimension;
-  tau_ = 0.25 * dt * dt;
-  scale_ = 0;
-  preconditioner_.prepare(tau_);
-  Vector const x = vectors.values_of(s.x), v = vectors.values_of(s.v);
-  Vector middle(x.size()), by_velocity(x.size()), pressure(static_cast<std::size_t>(body_.particles()));
+  Vector acceleration(x.size()), middle(x.size());
   vectors.each_particle([&](Index i) {
-    for (int c = 0; c < D; ++c) {
-      std::size_t const k = vectors.place(i, c);
-      by_velocity[k] = 0.5 * dt * v[k];
-      middle[k] = x[k] + by_velocity[k] + tau_ * (2 * value_at(s.bulk_a, i, c) - value_at(s.bulk_a, i, D + c));
-    }
+    for (int c = 0; c < s.dimension; ++c)
+      acceleration[vectors.place(i, c)] = 2 * value_at(s.bulk_a, i, c) - value_at(s.bulk_a, i, s.dimension + c);
     pressure[static_cast<std::size_t>(i)] = 2 * value_at(s.pressure, i, 0) - value_at(s.pressure, i, 1);
   });
   backend_.linearise_pressure(s);
   Vector const before = ratios();
+  scale_ = 0;
   bool converged = true;
   for (int pass = 0; converged && pass < most_passes && (pass < 2 || iterations_ > few_iterations); ++pass) {
-    if (pass > 0) {
-      Vector const a = accelerations(pressure);
-      for (std::size_t k = 0; k < x.size(); ++k) middle[k] = x[k] + by_velocity[k] + tau_ * a[k];
-    }
+    if (pass > 0) acceleration = accelerations(pressure);
+    for (std::size_t k = 0; k < x.size(); ++k) middle[k] = x[k] + by_velocity[k] + tau_ * acceleration[k];
     vectors.put(middle, 1, s.x);
     backend_.linearise_pressure(s);
     Vector wanted = change_of_ratio(by_velocity);
     for (std::size_t k = 0; k < wanted.size(); ++k) wanted[k] += before[k] - 1;
     converged = solve(wanted, pass == 0 ? tolerance_of_first : tolerance, pressure);
   }
-  if (!converged) exec::record(s.failure, 0, not_converged);
+  return converged;
+}
+
+/// The pressures and accelerations become those of the last step.
+void ImplicitPressure::keep(Vector const& pressure, Vector const& a) {
+  ParticleVectors const vectors(body_);
+  BodyState& s = body_.state();
+  vectors.each_particle([&](Index i) {
+    for (int c = 0; c < s.dimension; ++c) {
+      value_at(s.bulk_a, i, s.dimension + c) = value_at(s.bulk_a, i, c);
+      value_at(s.bulk_a, i, c) = a[vectors.place(i, c)];
+    }
+    value_at(s.pressure, i, 1) = value_at(s.pressure, i, 0);
+    value_at(s.pressure, i, 0) = pressure[static_cast<std::size_t>(i)];
+  });
+}
+
+void ImplicitPressure::move(double dt) {
+  PIOLA_EXPECTS(dt > 0);
+  ParticleVectors const vectors(body_);
+  BodyState& s = body_.state();
+  tau_ = 0.25 * dt * dt;
+  preconditioner_.prepare(tau_);
+  Vector const x = vectors.values_of(s.x), v = vectors.values_of(s.v);
+  Vector by_velocity(v.size()), pressure(static_cast<std::size_t>(body_.particles()));
+  for (std::size_t k = 0; k < v.size(); ++k) by_velocity[k] = 0.5 * dt * v[k];
+  bool const converged = solve_step(x, by_velocity, pressure);
   for (Index a = 0; a < body_.particles(); ++a) value_at(s.ratio, a, 0) = pressure[static_cast<std::size_t>(a)];
   backend_.accelerate_by_pressure(s);
   body_.boundary().carry_held(s.a, dt);
   Vector const a = vectors.values_of(s.a);
   vectors.each_particle([&](Index i) {
-    for (int c = 0; c < D; ++c) {
+    for (int c = 0; c < s.dimension; ++c) {
       std::size_t const k = vectors.place(i, c);
       value_at(s.mean_v, i, c) = v[k] + 0.5 * dt * a[k];
       value_at(s.x, i, c) = x[k] + dt * v[k] + 0.5 * dt * dt * a[k];
       value_at(s.v, i, c) = v[k] + dt * a[k];
-      if (!converged) continue;
-      value_at(s.bulk_a, i, D + c) = value_at(s.bulk_a, i, c);
-      value_at(s.bulk_a, i, c) = a[k];
     }
-    if (!converged) return;
-    value_at(s.pressure, i, 1) = value_at(s.pressure, i, 0);
-    value_at(s.pressure, i, 0) = pressure[static_cast<std::size_t>(i)];
   });
+  if (converged)
+    keep(pressure, a);
+  else
+    exec::record(s.failure, 0, not_converged);
 }
 
 }  // namespace piola::nodal

@@ -31,6 +31,8 @@ class ImplicitPressure {
   Vector apply(Vector const& pressure);
   double product(Vector const& u, Vector const& w) const;
   bool solve(Vector const& wanted, double accuracy, Vector& pressure);
+  bool solve_step(Vector const& x, Vector const& by_velocity, Vector& pressure);
+  void keep(Vector const& pressure, Vector const& a);
   Vector ratios() const;
 
   NodalBody& body_;

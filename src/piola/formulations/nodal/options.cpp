@@ -33,9 +33,8 @@ constexpr std::array parameters{
               Interval{0, 1}, 0.05},
     Parameter{"energy_tolerance", "1",
               "share of the largest energy by which total energy may rise and fall with the accelerations, as it does "
-              "in Verlet steps: steps are shortened to it; 0: steps are limited by stability alone; default 1e-3, with "
-              "pressure = \"implicit\" 0",
-              Interval{0, 1}, no_default}};
+              "in Verlet steps: steps are shortened to it; 0: steps are limited by stability alone",
+              Interval{0, 1}, no_default, "0.001; pressure = \"implicit\" 0"}};
 
 constexpr std::array<std::string_view, 5> assumption_words{"as_dimension", "plane_strain", "plane_stress",
                                                            "uniaxial_strain", "uniaxial_stress"};
@@ -44,10 +43,11 @@ constexpr std::array choices{
     Choice{"assumption",
            "about the directions that a body does not have; as_dimension: 1D uniaxial_strain, 2D plane_strain",
            assumption_words},
-    Choice{"pressure",
-           "implicit: steps are not limited by pressure waves, which is faster above a Poisson's ratio of 0.49 in slow "
-           "motion; waves shorter than a step are lost",
-           pressure_words}};
+    Choice{
+        "pressure",
+        "implicit: steps are not limited by pressure waves, which is faster for slender bodies above a Poisson's ratio "
+        "of 0.49 in slow motion; waves shorter than a step are lost",
+        pressure_words}};
 
 /// Columns of Diagnostics::more (observe.cpp).
 constexpr std::array diagnostics{DiagnosticInfo{"cell_jacobian_min", "1"}, DiagnosticInfo{"repeated_steps", "1"},

@@ -95,7 +95,7 @@ void PressurePreconditioner::order_cells(NodalBody const& body) {
   for (std::size_t k = 0; k < order.size(); ++k) place_[static_cast<std::size_t>(order[k])] = k;
 }
 
-/// Of two gradients for the same particle.
+/// Scalar product of two gradients for the same particle.
 double PressurePreconditioner::product(Entry const& one, Entry const& other) const {
   return one.G[0] * other.G[0] + one.G[1] * other.G[1] + one.G[2] * other.G[2];
 }
