@@ -183,8 +183,8 @@ formulation = { name = "jst_sph" }
 TEST(CaseMessages, SettingsOfTheCommandLineAreNamed) {
   EXPECT_EQ(
       message_of(sample_case(), {"run.ens=1"}),
-      "--set run.ens=1: \"ens\" is not a key of run (allowed: end, cfl, damping, relax, relax_tolerance, max_step, "
-      "min_step, threads, instruction_set, repartition, guards) - did you mean \"end\"?");
+      "--set run.ens=1: \"ens\" is not a key of run (allowed: end, cfl, damping, relax, relax_method, relax_tolerance, "
+      "max_step, min_step, threads, instruction_set, repartition, guards) - did you mean \"end\"?");
   EXPECT_TRUE(mentions(message_of(sample_case(), {"body.colum.name=a"}),
                        {"--set body.colum.name=a:", "colum", "known: column", "did you mean \"column\""}));
   EXPECT_EQ(
@@ -195,6 +195,18 @@ TEST(CaseMessages, SettingsOfTheCommandLineAreNamed) {
   EXPECT_TRUE(mentions(
       message_of(sample_case(), {"body.column.material.poissons_ratio=0.6"}),
       {"--set body.column.material.poissons_ratio=0.6:", "body.material.poissons_ratio", "0.6", "between -1 and 0.5"}));
+}
+
+TEST(CaseMessages, ConjugateGradientsNeedOnePotentialEnergy) {
+  std::string const all = message_of(
+      sample_case() +
+          "[[support]]\nbody = \"column\"\nwhere = \"Y > 1\"\nfix = \"y\"\nvelocity = [\"0\", \"1\", \"0\"]\n" +
+          "[[rigid]]\nname = \"floor\"\nplane = { point = [0, -9, 0], normal = [0, 1, 0] }\n",
+      {"run.relax=true", "run.relax_method=conjugate_gradients"});
+  expect_words(all, {"one body without contact, ties and rigid", "does not have (allowed: nodal)",
+                     "support.velocity drives the body"});
+  EXPECT_TRUE(mentions(message_of(sample_case(), {"run.relax_method=conjugate_gradients"}),
+                       {"run.relax_method", "only with relax = true"}));
 }
 
 TEST(CaseMessages, TheLookOfPicturesHasNamesAndBounds) {

@@ -25,8 +25,8 @@ expect 0 "" run "$cases/relaxed_beam.toml" --out descent --set load.moment.follo
   --set run.relax_method=conjugate_gradients --set run.relax_tolerance=1e-4
 check last descent step 100 4000
 check last descent end.twist_angle 0.5324 0.5377
-expect 0 "conjugate gradients, which then hardly get on" run "$cases/relaxed_beam.toml" --out none \
-  --set run.relax_method=conjugate_gradients --set run.relax_tolerance=0.5
+expect 3 "conjugate gradients, which then hardly get on" run "$cases/relaxed_beam.toml" --out none --set run.end=2 \
+  --set run.relax_method=conjugate_gradients
 
 # A pulse of velocity in a bar of 501 particles. The first step would be 60 ns at 2 c / h.
 expect 0 "" run "$cases/long_bar.toml" --out long --set output.history.every="1 ns"
