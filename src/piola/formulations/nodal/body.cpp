@@ -204,6 +204,7 @@ std::size_t NodalBody::bytes() const {
                       (r.weight.size() + r.gradient.size() + r.reaction.size()) * 8 + r.lattice.bytes() +
                       (r.V.size() + r.mass.size() + r.X.size() + partial_.size()) * 8;
   total += r.neighbour.size() * 8 + r.V.size() * 8;  // the smoothing of observers
+  if (implicit_pressure_) total += implicit_pressure_->bytes();
   return total + fields_.bytes() + boundary_->bytes();
 }
 

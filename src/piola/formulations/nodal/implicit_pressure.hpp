@@ -22,6 +22,8 @@ class ImplicitPressure {
   /// the iteration does not converge.
   void move(double dt);
 
+  std::size_t bytes() const { return preconditioner_.bytes(); }
+
   static constexpr int not_converged = 2;  ///< FailureSlot::code
 
  private:

@@ -151,6 +151,12 @@ void PressurePreconditioner::factorise(double tau) {
   factor_->factorise();
 }
 
+std::size_t PressurePreconditioner::bytes() const {
+  std::size_t total = factor_ ? factor_->bytes() : 0;
+  for (auto const& seeing : cells_) total += seeing.size() * sizeof(Entry);
+  return total;
+}
+
 void PressurePreconditioner::solve(std::vector<double> const& r, std::vector<double>& z) {
   PIOLA_EXPECTS(tau_ > 0 && r.size() == cells_.size());
   z.resize(r.size());

@@ -25,6 +25,7 @@ class PressurePreconditioner {
   void prepare(double tau);
   /// z = S^-1 (V r); per local particle.
   void solve(std::vector<double> const& r, std::vector<double>& z);
+  std::size_t bytes() const;
 
  private:
   void read_lists(NodalBody const& body);
