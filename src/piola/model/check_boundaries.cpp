@@ -177,9 +177,12 @@ void check_load(LoadSpec const& load, ParticleSet const& particles, Body const& 
   if (load.where && !check_where(*load.where, "load.where", place, particles, body, problems)) return;
   std::vector<std::int64_t> const ids = loaded_particles(particles, body, load);
   if (ids.empty() && body.first < body.last) {
-    problems.add(place, "load.where, formula " + in_quotes(load.where->text()) + " selects no particle of the face " +
-                            in_quotes(face_text(load.shape, load.face)) + " of body " + in_quotes(body.name) + " (" +
-                            box_of(particles, body) + ") - change the condition");
+    std::string const what =
+        load.where ? "load.where, formula " + in_quotes(load.where->text()) + " selects no particle of the face "
+                   : "no particle is at the face ";
+    problems.add(place, what + in_quotes(face_text(load.shape, load.face)) + " of body " + in_quotes(body.name) + " (" +
+                            box_of(particles, body) + ") - " +
+                            (load.where ? "change the condition" : "take another face, or none of a tip"));
   }
   std::string const key = keys[static_cast<std::size_t>(load.kind)];
   FormulaCheck const check(particles, body, problems);
