@@ -47,8 +47,8 @@ double EnergyDescent::curvature(double time, double distance) {
 }
 
 /// A step that moves the particles by `distance` along the direction: its first kick adds dt / 2 times the free
-/// `accelerations`. The kinetic energy
-/// that the body gains between start and end is the fall of its potential energy by the trapezoidal rule.
+/// `accelerations`. The kinetic energy that the body gains between start and end is the fall of its potential energy
+/// by the trapezoidal rule.
 void EnergyDescent::move(double time, double dt, double distance, Vector const& accelerations) {
   ParticleVectors const vectors(body_);
   BodyState& s = body_.state();
