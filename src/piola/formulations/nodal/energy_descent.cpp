@@ -57,7 +57,7 @@ void EnergyDescent::move(double time, double dt, double distance, Vector const& 
       [&](std::size_t i) { velocity[i] = distance / dt * direction_[i] - 0.5 * dt * accelerations[i]; });
   vectors.put(velocity, 1, s.v);
   body_.set_damping_loss(body_.damping_loss() - body_.kinetic_energy());
-  if (body_.step(backend_, time, dt) > 0) direction_.clear();  // halved steps leave the line
+  restarts_ = body_.step(backend_, time, dt) > 0;  // halved steps leave the line
   body_.damp(0);
 }
 
@@ -66,7 +66,8 @@ Descent EnergyDescent::iterate(double time, double dt) {
   ParticleVectors const vectors(body_);
   Vector const before = free_accelerations();
   double const square = vectors.product(before, before);
-  if (direction_.empty() || !(vectors.product(before, direction_) > 0)) direction_ = before;
+  if (restarts_ || !(vectors.product(before, direction_) > 0)) direction_ = before;
+  restarts_ = false;
   double const slope = vectors.product(before, direction_), most = global_max_norm(body_, direction_);
   double const loss = body_.damping_loss();
   if (most > 0) {
@@ -81,10 +82,9 @@ Descent EnergyDescent::iterate(double time, double dt) {
   }
   Vector const after = free_accelerations();
   double const released = body_.damping_loss() - loss;
-  bool const restarts = direction_.empty() || released < 0 || !(square > 0);
+  bool const restarts = restarts_ || released < 0 || !(square > 0);
   double const beta =
       restarts ? 0 : std::max(0.0, (vectors.product(after, after) - vectors.product(after, before)) / square);
-  direction_.resize(after.size());
   vectors.each_number([&](std::size_t i) { direction_[i] = after[i] + (beta > 0 ? beta * direction_[i] : 0); });
   return {.unbalanced = std::sqrt(square), .released = released};
 }
@@ -99,6 +99,7 @@ void EnergyDescent::load(StateReader& reader, std::string const& name) {
   reader.get_on_root(name, all);
   direction_.resize(size_of_mode(body_));
   without_mode(body_, 0, all, direction_);
+  restarts_ = false;
 }
 
 }  // namespace piola::nodal

@@ -29,7 +29,8 @@ class EnergyDescent {
 
   NodalBody& body_;
   Backend const& backend_;
-  Vector direction_;  ///< empty before the first iteration
+  Vector direction_;
+  bool restarts_ = true;  ///< whether the next direction is that of the forces; equal on all ranks
 };
 
 }  // namespace piola::nodal
