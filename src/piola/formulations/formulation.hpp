@@ -139,7 +139,7 @@ class CoupledParticles;
 
 /// Interface of every formulation: called at most a few times per step, holds no data. Particles are addressed in Id
 /// order (the order of the ParticleSet), whatever the internal order. A class that wraps formulations must forward each
-/// function, so none has a default.
+/// function, so none has a default but descend(), which throws.
 class Formulation {
  public:
   virtual ~Formulation() = default;

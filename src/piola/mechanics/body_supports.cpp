@@ -13,13 +13,13 @@ int axis_of(Direction const& d) {
   return -1;
 }
 
-double along(FieldRef const& v, PrescribedDirection const& h, int D) {
+}  // namespace
+
+double along(FieldRef const& field, PrescribedDirection const& h, int D) {
   double sum = 0;
-  for (int c = 0; c < D; ++c) sum += h.direction[c] * value_at(v, h.slot, c);
+  for (int c = 0; c < D; ++c) sum += h.direction[c] * value_at(field, h.slot, c);
   return sum;
 }
-
-}  // namespace
 
 BodySupports::BodySupports(int dimension, std::vector<Support> const& supports, bool multiplied)
     : D_(dimension), multiplied_(multiplied), impulses_(supports.size()) {

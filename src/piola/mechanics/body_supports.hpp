@@ -13,6 +13,9 @@
 
 namespace piola {
 
+/// The component of a vector field of D components along a held direction.
+double along(FieldRef const& field, PrescribedDirection const& h, int D);
+
 /// Supports of one body: the particles that they hold, the held directions with their speeds, and the impulses of the
 /// supports.
 class BodySupports {

@@ -182,7 +182,7 @@ void check_load(LoadSpec const& load, ParticleSet const& particles, Body const& 
                    : "no particle is at the face ";
     problems.add(place, what + in_quotes(face_text(load.shape, load.face)) + " of body " + in_quotes(body.name) + " (" +
                             box_of(particles, body) + ") - " +
-                            (load.where ? "change the condition" : "take another face, or none of a tip"));
+                            (load.where ? "change the condition" : "load another face"));
   }
   std::string const key = keys[static_cast<std::size_t>(load.kind)];
   FormulaCheck const check(particles, body, problems);

@@ -35,13 +35,9 @@ double RemovedEnergy::left() const {
 }
 
 std::vector<double> RemovedEnergy::state() const {
-  std::vector<double> all(state_size(), 0.0);
-  all[0] = total_;
-  all[1] = spacing_;
-  all[2] = steps_;
-  // The number of marks is the first negative entry: totals never are.
-  std::copy(marks_.begin(), marks_.end(), all.begin() + 3);
-  std::fill(all.begin() + 3 + static_cast<std::ptrdiff_t>(marks_.size()), all.end(), -1.0);
+  std::vector<double> all{total_, spacing_, steps_, static_cast<double>(marks_.size())};
+  all.insert(all.end(), marks_.begin(), marks_.end());
+  all.resize(state_size());
   return all;
 }
 
@@ -49,7 +45,7 @@ void RemovedEnergy::load(std::vector<double> const& state) {
   total_ = state[0];
   spacing_ = state[1];
   steps_ = state[2];
-  marks_.assign(state.begin() + 3, std::find(state.begin() + 3, state.end(), -1.0));
+  marks_.assign(state.begin() + 4, state.begin() + 4 + static_cast<std::ptrdiff_t>(state[3]));
 }
 
 }  // namespace piola

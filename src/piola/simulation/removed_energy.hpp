@@ -22,7 +22,7 @@ class RemovedEnergy {
   /// State for checkpoints: the values of load().
   std::vector<double> state() const;
   void load(std::vector<double> const& state);
-  static constexpr int state_size() { return 3 + most_marks; }
+  static constexpr int state_size() { return 4 + most_marks; }
 
  private:
   static constexpr int most_marks = 96;

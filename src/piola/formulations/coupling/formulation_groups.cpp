@@ -134,7 +134,6 @@ void fill_part(Assembly const& whole, FormulationGroup& part) {
   a.cfl = whole.cfl;
   a.backend = whole.backend;
   a.repartition = whole.repartition;
-  a.minimises = whole.minimises;
 }
 
 }  // namespace

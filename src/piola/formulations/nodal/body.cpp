@@ -93,6 +93,8 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
   backend.step(state_, 0);  // the accelerations of the start
 }
 
+NodalBody::~NodalBody() = default;
+
 void NodalBody::make_reference(Assembly const& assembly, Backend const& backend) {
   reference_ = nodal::make_reference({*set_, body_, order_, assembly.loads, assembly.supports, materials_.densities(),
                                       options_.least_mass, backend, images_.empty() ? nullptr : &images_,
@@ -161,7 +163,7 @@ void NodalBody::make_boundary(Assembly const& assembly, std::size_t body) {
 }
 
 void NodalBody::make_pressure(Backend const& backend) {
-  implicit_pressure_ = std::make_shared<ImplicitPressure>(*this, backend);
+  implicit_pressure_ = std::make_unique<ImplicitPressure>(*this, backend);
   state_.implicit_pressure = implicit_pressure_.get();
   state_.move_by_pressure = [](ImplicitPressure& pressure, double dt) { pressure.move(dt); };
 }

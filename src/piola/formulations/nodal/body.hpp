@@ -24,6 +24,7 @@ class NodalBody {
   /// without an outline). Collective: each rank holds its local particles and their ghosts.
   NodalBody(Assembly const& assembly, ParticleSet const& set, std::size_t body, Options const& options,
             Backend const& backend);
+  ~NodalBody();
   NodalBody(NodalBody const&) = delete;
   NodalBody& operator=(NodalBody const&) = delete;
 
@@ -120,7 +121,7 @@ class NodalBody {
   bool observed_ = false;
   FailureSlot failure_;
   std::unique_ptr<BodyHalo> halo_;                       ///< nullptr on one rank
-  std::shared_ptr<ImplicitPressure> implicit_pressure_;  ///< nullptr: explicit
+  std::unique_ptr<ImplicitPressure> implicit_pressure_;  ///< nullptr: explicit
 };
 
 }  // namespace piola::nodal

@@ -17,12 +17,6 @@ std::vector<std::array<double, 3>> positions(Assembly const& assembly, Boundary:
   return X;
 }
 
-double along(FieldRef const& field, PrescribedDirection const& h, int D) {
-  double sum = 0;
-  for (int c = 0; c < D; ++c) sum += value_at(field, h.slot, c) * h.direction[c];
-  return sum;
-}
-
 }  // namespace
 
 Boundary::Boundary(Assembly const& assembly, std::size_t body, BodyInput const& of_body)

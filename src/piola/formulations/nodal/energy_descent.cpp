@@ -8,9 +8,9 @@
 namespace piola::nodal {
 namespace {
 
-/// Distance to the point where the curvature is measured, and the longest move of an iteration, of a spacing.
+/// Distance to the point where the curvature is measured, and the longest move of an iteration [spacings].
 constexpr double probe = 1e-4, longest = 0.5;
-/// Move along a direction without positive curvature, of a spacing.
+/// Length of a move along a direction without positive curvature [spacings].
 constexpr double downhill = 0.1;
 
 }  // namespace
@@ -19,10 +19,10 @@ constexpr double downhill = 0.1;
 EnergyDescent::Vector EnergyDescent::free_accelerations() const {
   ParticleVectors const vectors(body_);
   BodyState& s = body_.state();
-  vectors.put(vectors.values_of(s.a), 1, s.v);
+  vectors.put(vectors.values_of(s.a), s.v);
   body_.boundary().hold_at_rest(s);
   Vector free = vectors.values_of(s.v);
-  vectors.put(free, 0, s.v);
+  vectors.put(Vector(free.size(), 0), s.v);
   return free;
 }
 
@@ -39,9 +39,8 @@ double EnergyDescent::curvature(double time, double distance) {
   BodyState trial = s;
   trial.failure = &failure;
   backend_.step(trial, 0);
-  vectors.each_number([&](std::size_t i) { change[i] /= distance; });
   Vector const moved = vectors.values_of(s.a);
-  vectors.each_number([&](std::size_t i) { change[i] -= moved[i] / distance; });
+  vectors.each_number([&](std::size_t i) { change[i] = (change[i] - moved[i]) / distance; });
   backend_.restore(s);
   return vectors.product(change, direction_);
 }
@@ -55,7 +54,7 @@ void EnergyDescent::move(double time, double dt, double distance, Vector const& 
   Vector velocity(accelerations.size());
   vectors.each_number(
       [&](std::size_t i) { velocity[i] = distance / dt * direction_[i] - 0.5 * dt * accelerations[i]; });
-  vectors.put(velocity, 1, s.v);
+  vectors.put(velocity, s.v);
   body_.set_damping_loss(body_.damping_loss() - body_.kinetic_energy());
   restarts_ = body_.step(backend_, time, dt) > 0;  // halved steps leave the line
   body_.damp(0);
@@ -70,16 +69,14 @@ Descent EnergyDescent::iterate(double time, double dt) {
   restarts_ = false;
   double const slope = vectors.product(before, direction_), most = global_max_norm(body_, direction_);
   double const loss = body_.damping_loss();
+  double distance = 0;  // if no force acts yet
   if (most > 0) {
     auto const& spacing = body_.body().spacing;
     double const unit = *std::min_element(spacing.begin(), spacing.begin() + body_.state().dimension) / most;
     double const stiffness = curvature(time, probe * unit);
-    double const distance = stiffness > 0 ? slope / stiffness : downhill * unit;
-    move(time, dt, std::min(distance, longest * unit), before);
-  } else {
-    body_.step(backend_, time, dt);  // nothing pulls yet
-    body_.damp(0);
+    distance = std::min(stiffness > 0 ? slope / stiffness : downhill * unit, longest * unit);
   }
+  move(time, dt, distance, before);
   Vector const after = free_accelerations();
   double const released = body_.damping_loss() - loss;
   bool const restarts = restarts_ || released < 0 || !(square > 0);

@@ -9,8 +9,8 @@
 namespace piola::nodal {
 namespace {
 
-/// Largest residual over the right side, in the norm of the preconditioner: larger ones spoil the energy. The first
-/// pass only improves the midpoint.
+/// Largest residual relative to the right side, in the norm of the preconditioner: larger ones spoil the energy. The
+/// first pass only improves the midpoint.
 constexpr double tolerance = 1e-4, tolerance_of_first = 1e-2;
 constexpr int most_iterations = 400;
 /// Passes end when one takes this many iterations or fewer.
@@ -42,22 +42,28 @@ ImplicitPressure::Vector ImplicitPressure::ratios() const {
 }
 
 ImplicitPressure::Vector ImplicitPressure::change_of_ratio(Vector const& by) {
-  ParticleVectors(body_).put(by, 1, body_.state().x);
+  ParticleVectors(body_).put(by, body_.state().x);
   backend_.change_of_ratio(body_.state());
   return ratios();
 }
 
-/// By pressures, in directions that no support holds.
-ImplicitPressure::Vector ImplicitPressure::accelerations(Vector const& pressure) {
+/// Sets the accelerations of the body to those by the pressures.
+void ImplicitPressure::accelerate(Vector const& pressure) {
   BodyState& s = body_.state();
   for (Index a = 0; a < body_.particles(); ++a) value_at(s.ratio, a, 0) = pressure[static_cast<std::size_t>(a)];
   backend_.accelerate_by_pressure(s);
+}
+
+/// The accelerations by the pressures, without the components that supports hold.
+ImplicitPressure::Vector ImplicitPressure::free_accelerations(Vector const& pressure) {
+  BodyState& s = body_.state();
+  accelerate(pressure);
   body_.boundary().remove_held(s.a);
   return ParticleVectors(body_).values_of(s.a);
 }
 
 ImplicitPressure::Vector ImplicitPressure::apply(Vector const& pressure) {
-  Vector result = change_of_ratio(accelerations(pressure));
+  Vector result = change_of_ratio(free_accelerations(pressure));
   for (Index a = 0; a < body_.particles(); ++a) {
     auto const k = static_cast<std::size_t>(a);
     result[k] = pressure[k] / body_.material(a).constants.kappa - tau_ * result[k];
@@ -116,9 +122,9 @@ bool ImplicitPressure::solve_step(Vector const& x, Vector const& by_velocity, Ve
   scale_ = 0;
   bool converged = true;
   for (int pass = 0; converged && pass < most_passes && (pass < 2 || iterations_ > few_iterations); ++pass) {
-    if (pass > 0) acceleration = accelerations(pressure);
+    if (pass > 0) acceleration = free_accelerations(pressure);
     for (std::size_t k = 0; k < x.size(); ++k) middle[k] = x[k] + by_velocity[k] + tau_ * acceleration[k];
-    vectors.put(middle, 1, s.x);
+    vectors.put(middle, s.x);
     backend_.linearise_pressure(s);
     Vector wanted = change_of_ratio(by_velocity);
     for (std::size_t k = 0; k < wanted.size(); ++k) wanted[k] += before[k] - 1;
@@ -127,7 +133,7 @@ bool ImplicitPressure::solve_step(Vector const& x, Vector const& by_velocity, Ve
   return converged;
 }
 
-/// The pressures and accelerations become those of the last step.
+/// Stores the pressures and accelerations as those of the last step.
 void ImplicitPressure::keep(Vector const& pressure, Vector const& a) {
   ParticleVectors const vectors(body_);
   BodyState& s = body_.state();
@@ -151,8 +157,7 @@ void ImplicitPressure::move(double dt) {
   Vector by_velocity(v.size()), pressure(static_cast<std::size_t>(body_.particles()));
   for (std::size_t k = 0; k < v.size(); ++k) by_velocity[k] = 0.5 * dt * v[k];
   bool const converged = solve_step(x, by_velocity, pressure);
-  for (Index a = 0; a < body_.particles(); ++a) value_at(s.ratio, a, 0) = pressure[static_cast<std::size_t>(a)];
-  backend_.accelerate_by_pressure(s);
+  accelerate(pressure);
   body_.boundary().carry_held(s.a, dt);
   Vector const a = vectors.values_of(s.a);
   vectors.each_particle([&](Index i) {

@@ -29,7 +29,8 @@ class ImplicitPressure {
  private:
   using Vector = std::vector<double>;
   Vector change_of_ratio(Vector const& by);
-  Vector accelerations(Vector const& pressure);
+  void accelerate(Vector const& pressure);
+  Vector free_accelerations(Vector const& pressure);
   Vector apply(Vector const& pressure);
   double product(Vector const& u, Vector const& w) const;
   bool solve(Vector const& wanted, double accuracy, Vector& pressure);

@@ -46,10 +46,10 @@ class ParticleVectors {
     });
     return u;
   }
-  /// Sets a field to scale u.
-  void put(Vector const& u, double scale, FieldRef const& to) const {
+  /// Sets a field to u.
+  void put(Vector const& u, FieldRef const& to) const {
     each_particle([&](Index i) {
-      for (int c = 0; c < dimension_; ++c) value_at(to, i, c) = scale * u[place(i, c)];
+      for (int c = 0; c < dimension_; ++c) value_at(to, i, c) = u[place(i, c)];
     });
   }
   /// Moves the particles to x + scale u.

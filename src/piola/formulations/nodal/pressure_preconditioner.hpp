@@ -13,13 +13,8 @@ namespace piola::nodal {
 /// diagonal for others. Host only, on one rank.
 class PressurePreconditioner {
  public:
-  /// Gradient of a cell with respect to a particle [1/m].
-  struct Entry {
-    Index particle;
-    std::array<double, 3> G;
-  };
-
-  explicit PressurePreconditioner(NodalBody& body, int lanes);
+  /// lanes: of the instruction set.
+  PressurePreconditioner(NodalBody const& body, int lanes);
 
   /// For steps with tau = (dt/2)^2 [s2]; nothing changes while tau is near that of the present factor.
   void prepare(double tau);
@@ -28,22 +23,26 @@ class PressurePreconditioner {
   std::size_t bytes() const;
 
  private:
-  void read_lists(NodalBody const& body);
-  void read_lattice(NodalBody const& body, int lanes);
-  void hold(NodalBody const& body);
-  void order_cells(NodalBody const& body);
-  std::vector<std::size_t> envelope() const;
-  void factorise(double tau);
-  double product(Entry const& one, Entry const& other) const;
+  /// Derivative of the volume ratio of a cell by the position of a particle, at rest [1/m].
+  struct Entry {
+    Index cell;
+    std::array<double, 3> G;
+  };
+  void read_gradients(int lanes);
+  void hold();
+  void order_cells();
+  void take_envelope();
+  void factorise();
+  static double product(Entry const& one, Entry const& other);
 
-  NodalBody& body_;
-  std::vector<std::vector<Entry>> cells_;  ///< per particle: the cells that see it, Entry::particle is the cell
+  NodalBody const& body_;
+  std::vector<std::vector<Entry>> cells_;  ///< per particle: the cells with it as a neighbour, and its own
   std::vector<std::size_t> place_;         ///< of a cell in the factor: along the longest side of the body
   std::vector<double> diagonal_;           ///< of D M^-1 D^T
+  std::vector<std::size_t> first_;         ///< of each row of the factor: its first column; empty: no factor is made
   std::optional<EnvelopeCholesky> factor_;
-  std::vector<double> sorted_;
-  bool slender_ = true;
-  double tau_ = 0;
+  std::vector<double> sorted_;  ///< room for a vector in the order of the factor
+  double tau_ = 0;              ///< of the factor or the diagonal [s2]; 0: none yet
 };
 
 }  // namespace piola::nodal
