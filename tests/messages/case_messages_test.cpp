@@ -207,6 +207,8 @@ TEST(CaseMessages, ConjugateGradientsNeedOnePotentialEnergy) {
                      "support.velocity drives the body"});
   EXPECT_TRUE(mentions(message_of(sample_case(), {"run.relax_method=conjugate_gradients"}),
                        {"run.relax_method", "only with relax = true"}));
+  expect_words(message_of(sample_case(), {"run.relax=true", "run.relax_method=conjugate_gradients", "run.damping=5"}),
+               {"run.damping", "has no effect"});
 }
 
 TEST(CaseMessages, TheLookOfPicturesHasNamesAndBounds) {

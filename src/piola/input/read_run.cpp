@@ -96,6 +96,7 @@ void read_run(Section const& section, RunSpec& run) {
     section.refuse("relax_tolerance", "is used only with relax = true");
     section.refuse("relax_method", "is used only with relax = true");
   }
+  if (run.minimises()) section.refuse("damping", "has no effect with relax_method = \"conjugate_gradients\"");
   read_threads(section, run);
   read_repartition(section, run);
   read_guards(section, run.guards);
