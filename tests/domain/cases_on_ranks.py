@@ -186,6 +186,30 @@ initial_velocity = ["-200000*(X + 30*X*X)", "0", "0"]
 every = "0.2 us"
 """
 
+# So few particles that some ranks have none. It is not at rest at its end.
+DESCENDING = """title = "Beam that is bent to rest by conjugate gradients"
+[run]
+end = "0.02 s"
+relax = true
+relax_method = "conjugate_gradients"
+[[body]]
+name = "beam"
+shape = { box = { min = [0, 0], max = ["0.5 m", "0.05 m"] }, particles = [21, 3] }
+material = { law = "neo_hookean", density = 1100, youngs_modulus = "17 MPa", poissons_ratio = 0.3 }
+formulation = { name = "nodal" }
+[[support]]
+body = "beam"
+where = "X <= 0"
+fix = "xy"
+[[load]]
+body = "beam"
+acceleration = ["0 m/s^2", "-9.81 m/s^2"]
+[output.history]
+every = "1 ms"
+[output.checkpoints]
+every = "5 ms"
+"""
+
 # A few particles in lists, which whirl until one is inverted.
 WHIRLED = """title = "A coarse ball that whirls"
 [run]

@@ -15,7 +15,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from cases_on_ranks import ESCAPED, FAILING, MANY_TRIANGLES, OWN_CASES, VARIANTS, WHIRLED
+from cases_on_ranks import DESCENDING, ESCAPED, FAILING, MANY_TRIANGLES, OWN_CASES, VARIANTS, WHIRLED
 from on_ranks import (ENVIRONMENT, QUICK, SOURCE, checkpoint, contents, differences, expect, finish, piola, short_bar,
                       skip_without_ranks)
 
@@ -191,7 +191,7 @@ def check_words(bar, work):
     expect(shared.returncode == 3, f"the soft bar on 3 ranks: exit code {shared.returncode}")
     said = [line for line in alone.stderr.splitlines() if "particle" in line][:1]
     expect(said and said[0] in shared.stderr, f"the failure on 3 ranks is another one: {shared.stderr}")
-    for name, text in (("crushed", FAILING), ("escaped", ESCAPED), ("whirled", WHIRLED)):
+    for name, text in (("crushed", FAILING), ("escaped", ESCAPED), ("whirled", WHIRLED), ("descending", DESCENDING)):
         (work / f"{name}.toml").write_text(text)
         alone, shared = (piola(n, "run", work / f"{name}.toml", "--out", work / f"{name}{n}") for n in (1, 3))
         expect(alone.returncode == 3 and shared.returncode == 3,
