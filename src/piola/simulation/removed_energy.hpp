@@ -9,7 +9,7 @@ namespace piola {
 /// vibrations cause the stops and slow motion hardly gets on.
 class RemovedEnergy {
  public:
-  /// The energy [J] of a stop.
+  /// Adds the energy [J] that a stop removes.
   void add(double energy) { total_ += energy; }
   /// Ends a step.
   void end_step();

@@ -48,7 +48,8 @@ class Boundary {
   void damp(BodyState& state, double factor) const;
   /// Removes the held directions of particles from a field of vectors.
   void remove_held(FieldRef const& field);
-  /// As above for an acceleration of the whole step, which becomes a reaction.
+  /// As remove_held() for an acceleration that acts during the whole step dt [s]. Impulses and work of the supports
+  /// take what is removed.
   void carry_held(FieldRef const& a, double dt);
   /// Removes from velocities what supports at rest do not allow.
   void hold_at_rest(BodyState& state);

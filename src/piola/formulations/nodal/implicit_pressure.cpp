@@ -79,7 +79,7 @@ double ImplicitPressure::product(Vector const& u, Vector const& w) const {
   });
 }
 
-/// Whether the iteration has converged.
+/// Conjugate gradients from the given pressure. Returns whether they have converged.
 bool ImplicitPressure::solve(Vector const& wanted, double accuracy, Vector& pressure) {
   Vector r = apply(pressure), z, direction;
   for (std::size_t k = 0; k < r.size(); ++k) r[k] = wanted[k] - r[k];
@@ -106,8 +106,9 @@ bool ImplicitPressure::solve(Vector const& wanted, double accuracy, Vector& pres
   return square <= aim;
 }
 
-/// The pressures of a step from x with the mean change by_velocity = dt/2 v, with D at midpoints: the first one from
-/// the accelerations of the last two steps. Whether the iterations have converged.
+/// Solves for the pressures of a step from x. by_velocity: dt/2 v [m]. A pass takes D at the midpoint that the pass
+/// before has found, the first pass at one predicted from the accelerations of the last two steps. Returns whether the
+/// iterations have converged.
 bool ImplicitPressure::solve_step(Vector const& x, Vector const& by_velocity, Vector& pressure) {
   ParticleVectors const vectors(body_);
   BodyState& s = body_.state();

@@ -8,9 +8,9 @@
 
 namespace piola::nodal {
 
-/// Approximate inverse of the matrix of an implicit pressure, V / kappa + tau V D M^-1 D^T V, with the derivative D of
-/// the volume ratios at rest, which rotations leave as it is: a Cholesky factor for slender and small bodies, the
-/// diagonal for others. Host only, on one rank.
+/// Approximates the matrix S = V / kappa + tau V D M^-1 D^T V of an implicit pressure by that of the body at rest,
+/// which rotations do not change. Slender and small bodies have a Cholesky factor of this matrix, others its diagonal.
+/// D is the derivative of the volume ratios of cells by the positions. Host only, on one rank.
 class PressurePreconditioner {
  public:
   /// lanes: of the instruction set.
@@ -18,7 +18,7 @@ class PressurePreconditioner {
 
   /// For steps with tau = (dt/2)^2 [s2]; nothing changes while tau is near that of the present factor.
   void prepare(double tau);
-  /// z = S^-1 (V r); per local particle.
+  /// Solves S z = V r approximately. Vectors have a value per local particle.
   void solve(std::vector<double> const& r, std::vector<double>& z);
   std::size_t bytes() const;
 
