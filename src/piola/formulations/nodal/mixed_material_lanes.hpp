@@ -34,14 +34,15 @@ class MixedMaterialLanes {
   /// Fields that UpdateStress writes and that depend on the law. F, C and its change depend on the motion alone.
   template <class Visit>
   void each(Visit const& visit) const {
-    visit(body_.stress_for_neighbours, D * Records<D>::width);
+    bool const on_lattice = body_.lattice.group != nullptr;
+    visit(body_.stress_for_neighbours, D * (on_lattice ? D + Quadratic<D>::second : Records<D>::used));
     visit(body_.a, D);
     visit(body_.change, 2);
     visit(body_.P, 9);
     visit(body_.cell, 4);
   }
 
-  static constexpr int values = D * Records<D>::width + D + 2 + 9 + 4;
+  static constexpr int values = D * Records<D>::used + D + 2 + 9 + 4;
   BodyState const& body_;
   Index group_, own_;
   double kept_[values * lane_count]{};
