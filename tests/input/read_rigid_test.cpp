@@ -26,7 +26,10 @@ auto read_table(std::string const& text, std::string const& section, Read const&
 
 RigidSpec rigid(std::string const& text, int dimension = 3) {
   return read_table("name = \"wall\"\n" + text + "\n", "rigid", [&](Section const& section) {
-    return read_rigid(section, dimension, {{"speed", 2.0}});
+    BodyNames names;
+    names.dimension = dimension;
+    names.names.constants = {{"speed", 2.0}};
+    return read_rigid(section, names);
   });
 }
 

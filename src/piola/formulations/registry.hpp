@@ -50,6 +50,7 @@ struct FormulationInfo {
   bool cell_volumes = false;      ///< whether jittered particles get the volumes of their Voronoi cells
   bool surface_supports = false;  ///< whether supports can hold the surface itself, where particles lie inside
   bool minimises = false;         ///< whether it has Formulation::descend()
+  bool axisymmetric = false;      ///< whether bodies may be axisymmetric
   /// Whether observers evaluate local particles on each rank; else every rank has the state of all bodies, and rank 0
   /// observes alone.
   bool observes_locally = false;
@@ -61,7 +62,7 @@ std::span<FormulationInfo const> formulations();
 std::optional<FormulationInfo> find_formulation(std::string_view name);
 
 /// Error message for a case that uses an unsupported feature. `what`: "cracks", "mirrors", "parts", "rings", "packed
-/// clouds", "contact" or "rigid shapes".
+/// clouds", "contact", "rigid shapes" or "axisymmetric bodies".
 std::string refusal(FormulationInfo const& info, std::string_view what);
 
 /// Settings of a formulation in a case file: only the given keys, checked against FormulationInfo.

@@ -237,6 +237,7 @@ inline std::vector<std::string> fields_of_frames(OutputSpec const& output, bool 
 /// A whole case: plain values in SI, checked.
 struct CaseSpec {
   std::string title;
+  bool axisymmetric = false;               ///< x is the radius, y along the axis
   std::string source;                      ///< the case file as run: overrides applied, present spellings, TOML
   std::vector<OldSpelling> old_spellings;  ///< that the case file and the settings have
   Identity identity;                       ///< of a run of it, taken when its files were read

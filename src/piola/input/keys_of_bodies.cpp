@@ -10,11 +10,16 @@ using enum KeyInfo::Kind;
 constexpr Interval half_open{0, 0.5, false, true};
 
 constexpr std::array<std::string_view, 1> none_word{"none"};
+constexpr std::array<std::string_view, 2> geometry_words{"cartesian", "axisymmetric"};
 constexpr std::array<std::string_view, 3> placement_words{"on_boundary", "cell_centred", "random"};
 constexpr std::array<std::string_view, 3> arrangement_words{"lattice", "rings", "lattice_with_rings"};
 
 constexpr std::array body_keys{
     KeyInfo{"", "title", text, "", any_value, "", "what the case is called in files and pictures"},
+    KeyInfo{"", "geometry", word, "", any_value, "\"cartesian\"",
+            "axisymmetric: bodies of revolution, drawn in 2D as half sections with x the radius and y along the axis; "
+            "masses, forces and energies are those of the full circle",
+            geometry_words},
     KeyInfo{"", "constants", table, "", any_value, "none",
             "named numbers for formulas: name = \"105 rad/s\" or a number in SI units"},
     KeyInfo{"", "library", list, "", any_value, "none", "files with materials of your own, relative to the case"},

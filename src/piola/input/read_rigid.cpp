@@ -67,6 +67,14 @@ void read_box(Section const& section, int dimension, RigidSpec& shape) {
   }
 }
 
+/// A box that reaches the axis is one on both sides of it.
+void continue_behind_axis(RigidSpec& box) {
+  double const low = box.centre[0] - box.half_lengths[0], high = box.centre[0] + box.half_lengths[0];
+  if (low > 1e-9 * high) return;
+  box.centre[0] = 0;
+  box.half_lengths[0] = high;
+}
+
 void read_kind(Section const& section, int dimension, RigidSpec& shape) {
   constexpr std::array<std::string_view, 4> kinds{"plane", "sphere", "cylinder", "box"};
   constexpr std::array readers{&read_plane, &read_sphere, &read_cylinder, &read_box};
@@ -86,11 +94,12 @@ void read_kind(Section const& section, int dimension, RigidSpec& shape) {
 
 }  // namespace
 
-RigidSpec read_rigid(Section const& section, int dimension, std::map<std::string, double> const& constants) {
+RigidSpec read_rigid(Section const& section, BodyNames const& names) {
   RigidSpec rigid;
   read_members(section, rigid_keys(), rigid);
-  read_kind(section, dimension, rigid);
-  read_rigid_motion(section, dimension, constants, rigid);
+  read_kind(section, names.dimension, rigid);
+  if (names.axisymmetric && rigid.kind == RigidShape::Kind::box) continue_behind_axis(rigid);
+  read_rigid_motion(section, names, rigid);
   section.refuse_unknown();
   rigid.places = places_of(section, {"name", "plane", "sphere", "cylinder", "box", "motion", "velocity",
                                      "angular_velocity", "gravity", "mass"});

@@ -54,7 +54,7 @@ Motion read_motion(Section const& section) {
   return motion;
 }
 
-void read_mass(Section const& section, int dimension, RigidSpec& rigid) {
+void read_mass(Section const& section, BodyNames const& names, RigidSpec& rigid) {
   bool const mass = section.has("mass"), density = section.has("density");
   if (mass == density) {
     section.problems().add(section.place_of(mass ? "mass" : "motion"),
@@ -63,12 +63,13 @@ void read_mass(Section const& section, int dimension, RigidSpec& rigid) {
     return;
   }
   if (auto const value = section.find("mass"); mass && value) {
-    auto const number =
-        read_number(*value, dimension == 2 ? "kg/m" : "kg", key_info("rigid", "mass").allowed, section.problems());
+    auto const number = read_number(*value, names.dimension == 2 && !names.axisymmetric ? "kg/m" : "kg",
+                                    key_info("rigid", "mass").allowed, section.problems());
     if (number) rigid.mass = *number;
   }
   double rho = 0;
-  if (density && section.read("density", rho)) rigid.mass = rho * volume_of(rigid, dimension);
+  if (density && section.read("density", rho))
+    rigid.mass = rho * (names.axisymmetric ? swept_volume_of(rigid) : volume_of(rigid, names.dimension));
 }
 
 void read_free(Section const& section, BodyNames const& names, RigidSpec& rigid) {
@@ -79,7 +80,7 @@ void read_free(Section const& section, BodyNames const& names, RigidSpec& rigid)
   else if (names.dimension == 1)
     section.problems().add(section.place_of("motion"), "a rigid shape is free in 1D (allowed: 2D, 3D)");
   else
-    read_mass(section, names.dimension, rigid);
+    read_mass(section, names, rigid);
   if (names.dimension > 1) read_inertia(section, names.dimension, rigid);
   refuse_variables(section, "velocity", rigid.velocity, true);
   refuse_variables(section, "angular_velocity", rigid.angular_velocity, true);
@@ -87,17 +88,17 @@ void read_free(Section const& section, BodyNames const& names, RigidSpec& rigid)
   refuse_variables(section, "gravity", rigid.gravity, false);
   if (std::string fix; section.read("fix", fix)) rigid.held = fixed_axes(section, fix, names.dimension);
   section.read("turns", rigid.can_turn);
+  if (names.axisymmetric) {  // moves along the axis
+    rigid.held[0] = true;
+    rigid.can_turn = false;
+  }
   if (!rigid.can_turn)
     for (char const* key : {"angular_velocity", "inertia"}) section.refuse(key, "has no meaning with turns = false");
 }
 
 }  // namespace
 
-void read_rigid_motion(Section const& section, int dimension, std::map<std::string, double> const& constants,
-                       RigidSpec& rigid) {
-  BodyNames names;
-  names.dimension = dimension;
-  names.names.constants = constants;
+void read_rigid_motion(Section const& section, BodyNames const& names, RigidSpec& rigid) {
   if (auto velocity = read_vector(section, "velocity", names)) rigid.velocity = std::move(*velocity);
   read_turning(section, names, rigid);
   if (read_motion(section) == Motion::free) {

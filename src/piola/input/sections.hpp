@@ -21,6 +21,7 @@ namespace piola {
 struct BodyNames {
   std::string name;
   int dimension = 3;
+  bool axisymmetric = false;
   ShapeSpec shape;
   Names names;
 };
@@ -83,10 +84,9 @@ LoadSpec read_load(Section const& section, std::vector<BodyNames> const& bodies)
 MirrorSpec read_mirror(Section const& section, std::vector<BodyNames> const& bodies);
 CrackSpec read_crack(Section const& section, std::vector<BodyNames> const& bodies);
 /// `dimension` is that of the bodies; `constants` may be used in the velocity.
-RigidSpec read_rigid(Section const& section, int dimension, std::map<std::string, double> const& constants);
+RigidSpec read_rigid(Section const& section, BodyNames const& names);
 /// The part of read_rigid that reads how the shape moves.
-void read_rigid_motion(Section const& section, int dimension, std::map<std::string, double> const& constants,
-                       RigidSpec& rigid);
+void read_rigid_motion(Section const& section, BodyNames const& names, RigidSpec& rigid);
 /// The part of read_rigid() for the key `inertia` of a free shape in 2D or 3D.
 void read_inertia(Section const& section, int dimension, RigidSpec& rigid);
 /// Reads the rule for all bodies and those of pairs: a table, a list of tables, or "none".

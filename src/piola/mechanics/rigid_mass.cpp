@@ -56,6 +56,13 @@ double volume_of(RigidShape const& shape, int dimension) {
   return dimension == 3 ? 8 * half[0] * half[1] * half[2] : 4 * half[0] * half[1];
 }
 
+double swept_volume_of(RigidShape const& shape) {
+  double const x = shape.centre[0], half = shape.half_lengths[0];
+  if (x > 0) return 2 * pi * x * volume_of(shape, 2);  // Pappus
+  if (shape.kind == Kind::sphere) return volume_of(shape, 3);
+  return shape.kind == Kind::box ? 2 * pi * half * half * shape.half_lengths[1] : volume_of(shape, 2);
+}
+
 PrincipalInertia inertia_of(RigidShape const& shape, int dimension) {
   PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
   PIOLA_EXPECTS(shape.inertia || shape.mass > 0);

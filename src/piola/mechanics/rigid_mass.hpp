@@ -7,6 +7,9 @@ namespace piola {
 
 /// Volume of a rigid shape [m3]; in 2D its area [m2]; infinite for a plane.
 double volume_of(RigidShape const& shape, int dimension);
+/// Volume of the body of revolution whose section in 2D the shape is: of a sphere or box about the axis x = 0, or
+/// beside it [m3].
+double swept_volume_of(RigidShape const& shape);
 
 /// Principal inertia of a shape about its centre: as given, else that of the homogeneous shape.
 struct PrincipalInertia {

@@ -74,6 +74,7 @@ void check_reference(ProbeSpec const& probe, ParticleSet const& particles, Body 
 
 ParticleSet make_particles(CaseSpec const& spec, Problems& problems) {
   ParticleSet particles;
+  particles.axisymmetric = is_in_sections(spec);
   for (BodySpec const& body : spec.bodies) {
     fill(body.shape, body.name, particles);
     open_cracks(spec, particles, problems);
@@ -172,6 +173,7 @@ void check_with_particles(CaseSpec const& spec, ParticleSet const& particles, Pr
   check_mirrored_contact(spec, particles, problems);
   check_ties(spec, particles, problems);
   check_abilities(spec, problems);
+  check_axisymmetry(spec, particles, problems);
   for (ProbeSpec const& probe : spec.probes) {
     Body const* const body = body_named(particles, probe.body);
     if (body == nullptr) continue;

@@ -10,6 +10,7 @@
 #include "piola/model/case_particles.hpp"
 #include "piola/model/clearance.hpp"
 #include "piola/setup/packed_bodies.hpp"
+#include "piola/setup/solids_of_revolution.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -164,6 +165,10 @@ void read_bodies(Section const& top, Names const& common, CaseSpec& spec, std::v
     spec.bodies.push_back(read_body(section, common, library, names.emplace_back()));
     BodySpec& body = spec.bodies.back();
     body.parts = read_parts(section, names.back(), spec.regions, library);
+    if (spec.axisymmetric && body.shape.dimension == 2) {
+      body.shape.axisymmetric = true;
+      cut_at_axis(body.shape);
+    }
     if (body.shape.arrangement == ShapeSpec::Arrangement::packed) cut_by_parts(body, spec.regions);
   }
   refuse_twins(sections, spec.bodies, "body");
@@ -180,7 +185,9 @@ void read_bodies(Section const& top, Names const& common, CaseSpec& spec, std::v
   check_size(sections, spec, limits);
 }
 
-void read_title(Section const& top, std::string& title) {
+void read_head(Section const& top, CaseSpec& spec) {
+  spec.axisymmetric = top.word_index("geometry") == 1;
+  std::string& title = spec.title;
   top.read("title", title);
   if (title.size() <= longest_title) return;
   top.problems().add(top.place_of("title"),
@@ -188,12 +195,16 @@ void read_title(Section const& top, std::string& title) {
                                  count_text(static_cast<std::int64_t>(title.size())), longest_title));
 }
 
+void read_rigids(std::vector<Section> const& sections, BodyNames const& names, CaseSpec& spec) {
+  for (Section const& section : sections) spec.rigids.push_back(read_rigid(section, names));
+}
+
 CaseSpec read_document(Document const& document, Problems& problems, ReadLimits const& limits) {
   Section const top(document.root, "", problems);
   CaseSpec spec;
   spec.source = document.source;
   spec.old_spellings = document.old_spellings;
-  read_title(top, spec.title);
+  read_head(top, spec);
   if (auto const run = top.table("run")) read_run(*run, spec.run);
   std::vector<BodyNames> names;
   std::map<std::string, double> constants;
@@ -207,7 +218,7 @@ CaseSpec read_document(Document const& document, Problems& problems, ReadLimits 
   for (Section const& section : tables_of(top, "crack")) spec.cracks.push_back(read_crack(section, names));
   int const dimension = names.empty() ? 3 : names.front().dimension;
   std::vector<Section> const rigids = tables_of(top, "rigid");
-  for (Section const& section : rigids) spec.rigids.push_back(read_rigid(section, dimension, constants));
+  read_rigids(rigids, {"", dimension, spec.axisymmetric, {}, {constants, {}}}, spec);
   if (auto const contact = top.find("contact")) read_contact(*contact, dimension, problems, spec);
   std::vector<Section> const ties = tables_of(top, "tie");
   for (Section const& section : ties) spec.ties.push_back(read_tie(section, names, spec.rigids));

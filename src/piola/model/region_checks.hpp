@@ -47,6 +47,11 @@ void check_contact(CaseSpec const& spec, Problems& problems);
 /// Refuses what the minimisation of the energy (run.relax_method) cannot do.
 void check_minimisation(CaseSpec const& spec, Problems& problems);
 
+/// Whether the bodies of the case are given as half sections of bodies of revolution.
+bool is_in_sections(CaseSpec const& spec);
+/// Refuses what axisymmetric cases cannot have, and shapes beyond the axis.
+void check_axisymmetry(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
+
 /// Opens the cracks of the last body of the set. Adds impossible cracks to `problems`.
 void open_cracks(CaseSpec const& spec, ParticleSet& particles, Problems& problems);
 /// Reports the cracks, mirrors, rings, rigid shapes and contact that the formulation of the bodies does not support.

@@ -3,6 +3,7 @@
 #include "piola/neighbours/particle_cells.hpp"
 #include <array>
 #include <functional>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -25,7 +26,7 @@ class CellSums {
  public:
   using Point = BlockSide::Point;
   /// X: of the particles of the body; must outlive the sums. wants_facets: see measure_cells().
-  CellSums(int dimension, std::span<Point const> X, std::function<bool(std::size_t)> wants_facets);
+  CellSums(int dimension, bool axisymmetric, std::span<Point const> X, std::function<bool(std::size_t)> wants_facets);
 
   /// A side between the cells of two particles, N from `lower` to `upper`.
   void add_facet(std::size_t lower, std::size_t upper, BlockSide const& side);
@@ -37,6 +38,10 @@ class CellSums {
  private:
   Point from(Point const& origin, Point const& X) const;
   void add_to_cell(std::size_t a, Point const& X, Point const& N, double sign);
+  void add_to_section(std::size_t a, Point const& r, Point const& N, double sign);
+  void finish_rings();
+  /// Length of the circle through X, by which surfaces of axisymmetric bodies are weighted; else 1 [m].
+  double weight(Point const& X) const { return axisymmetric_ ? 2 * std::numbers::pi * X[0] : 1; }
   bool wants_facet(std::size_t a, std::size_t b) const {
     return wants_facets_ && (wants_facets_(a) || wants_facets_(b));
   }
@@ -44,6 +49,7 @@ class CellSums {
   CellFacet& facet(std::size_t a, std::size_t b);
 
   std::size_t D_;
+  bool axisymmetric_;
   std::span<Point const> X_;
   std::function<bool(std::size_t)> wants_facets_;
   BodyCells cells_;

@@ -123,8 +123,8 @@ BodyCells measure_cells(ParticleSet const& set, Body const& body,
   PIOLA_EXPECTS(set.dimension >= 1 && set.dimension <= 3);
   PIOLA_EXPECTS(is_range_in(body, set));
   PIOLA_EXPECTS(body.spacing[0] > 0 && body.spacing[1] > 0 && body.spacing[2] > 0);
-  CellSums sums(set.dimension, {set.X.data() + body.first, static_cast<std::size_t>(body.last - body.first)},
-                wants_facets);
+  CellSums sums(set.dimension, set.axisymmetric,
+                {set.X.data() + body.first, static_cast<std::size_t>(body.last - body.first)}, wants_facets);
   return has_lattice_cells(body) ? moments_of_lattice(set, body, sums) : sample_cells(set, body, sums);
 }
 

@@ -18,7 +18,7 @@ struct CellMoments {
 };
 
 /// Integrals of N_J (1, r, r1^2/2, r2^2/2, r3^2/2, r2 r3, r1 r3, r1 r2) dA over a piece of a cell's surface with the
-/// normal N, for J = 1, 2, 3 [m^(D-1) and more].
+/// normal N, for J = 1, 2, 3 [m^(D-1) and more]. In axisymmetric bodies dA is that of the ring, 2 pi R ds.
 using NormalMoments = std::array<std::array<double, 10>, 3>;
 
 /// The part of a cell's surface on one patch of the body's surface; or, where patches are not known, the part that
@@ -39,8 +39,22 @@ struct CellFacet {
   NormalMoments moments{};
 };
 
+/// Integrals of 2 pi r1^i r2^j dA over the cross-section of a ring, r from the particle [m2 and more].
+struct SectionMoments {
+  static constexpr std::array<std::array<int, 2>, 10> powers{
+      {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}, {3, 0}, {2, 1}, {1, 2}, {0, 3}}};
+  std::array<double, powers.size()> of{};  ///< in the order of `powers`
+
+  /// Index of the powers (i, j).
+  static constexpr std::size_t at(int i, int j) {
+    int const degree = i + j;
+    return static_cast<std::size_t>(degree * (degree + 1) / 2 + j);
+  }
+};
+
 struct BodyCells {
-  std::vector<CellMoments> cell;  ///< per particle of the body
+  std::vector<CellMoments> cell;        ///< per particle of the body
+  std::vector<SectionMoments> section;  ///< of axisymmetric bodies, per particle
   std::vector<SurfacePatch> patch;
   std::vector<CellFacet> facet;
   // Bodies with known patches: corners of blocks are moved onto the surface.

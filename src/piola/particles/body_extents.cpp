@@ -22,7 +22,17 @@ BodyExtents extents_of(ParticleSet const& set, Body const& body) {
     if (body.outline.min[c] < ends.low[c] - ends.tolerance && body.outline.max[c] > ends.high[c] + ends.tolerance)
       ends.at[c] = {body.outline.min[c], body.outline.max[c]};
   }
+  if (touches_axis(set, body)) ends.at[0][0] = 0;
   return ends;
+}
+
+bool touches_axis(ParticleSet const& set, Body const& body) {
+  if (!set.axisymmetric || body.first == body.last) return false;
+  constexpr double rounding = 1e-6, half_a_cell = 0.75;  // spacings
+  if (body.outline.max[0] > body.outline.min[0]) return body.outline.min[0] < rounding * body.spacing[0];
+  double low = set.X[static_cast<std::size_t>(body.first)][0];
+  for (auto id = body.first; id < body.last; ++id) low = std::min(low, set.X[static_cast<std::size_t>(id)][0]);
+  return low < half_a_cell * body.spacing[0];
 }
 
 }  // namespace piola

@@ -12,7 +12,11 @@ struct BodyExtents {
   double tolerance;                         ///< two places are the same [m]
 };
 
-/// A plane goes through the outermost particles, or half a spacing outside of them where the body does on both sides.
+/// A plane goes through the outermost particles, or half a spacing outside of them where the body does on both sides;
+/// the axis of axisymmetric bodies through the origin.
 BodyExtents extents_of(ParticleSet const& set, Body const& body);
+
+/// Whether an axisymmetric body reaches the axis, which is then a mirror plane of its section.
+bool touches_axis(ParticleSet const& set, Body const& body);
 
 }  // namespace piola

@@ -51,8 +51,11 @@ struct Crack {
 /// The particles of a run in Id order, as set-up generates them. Reference data only; evolved fields belong to a
 /// formulation. Copies share their arrays (copy_on_write_vector.hpp), so a copy in a formulation costs no memory. All
 /// positions have three components; unused ones are zero. Volumes are m^Dim (per unit thickness or section).
+/// Axisymmetric bodies have two components, x the radius and y along the axis x = 0; their volumes are those of rings,
+/// the full circle [m^3].
 struct ParticleSet {
   int dimension = 3;
+  bool axisymmetric = false;
   std::vector<Body> bodies;
   CopyOnWriteVector<std::array<double, 3>> X;           ///< reference position [m]
   CopyOnWriteVector<std::array<int, 3>> lattice_index;  ///< position in the body's lattice

@@ -3,6 +3,7 @@
 #include "piola/base/contracts.hpp"
 #include "piola/particles/body_range.hpp"
 #include "piola/setup/packed_bodies.hpp"
+#include "piola/setup/solids_of_revolution.hpp"
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -23,9 +24,10 @@ Vec3 radial(ShapeSpec const& shape, Vec3 const& X) {
 
 double length(Vec3 const& r) { return std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]); }
 
-/// Area of the curved surface of radius R [m^(Dim-1)].
+/// Area of the curved surface of radius R [m^(Dim-1)], of axisymmetric shapes a ball or a torus [m^2].
 double curved_area(ShapeSpec const& shape, double R) {
   constexpr double pi = std::numbers::pi;
+  if (shape.axisymmetric) return shape.centre[0] < R ? 4 * pi * R * R : circle(shape.centre[0]) * circle(R);
   if (shape.kind == ShapeSpec::Kind::cylinder) return 2 * pi * R * shape.length;
   return shape.dimension == 3 ? 4 * pi * R * R : shape.dimension == 2 ? 2 * pi * R : 2;
 }
@@ -43,6 +45,7 @@ std::vector<FaceWeight> flat_shares(ShapeSpec const& shape, ParticleSet const& p
   normal[static_cast<std::size_t>(face.axis)] = face.upper ? 1 : -1;
   for (auto const id : face_particles(particles, body, face))
     shares.push_back({id, face_area(shape, particles, id, face), normal});
+  if (particles.axisymmetric) take_ring_areas(shape, particles, face, shares);
   double const R = shape.radius, r = shape.inner_radius;
   if (shape.kind == ShapeSpec::Kind::cylinder) scale_to(std::numbers::pi * (R * R - r * r), shares);
   return shares;

@@ -15,6 +15,9 @@ using Vec3 = std::array<double, 3>;
 using Index3 = std::array<int, 3>;
 using Lattice = GenerationLattice;
 
+/// Particles closer to the axis than this are on it [spacings].
+constexpr double on_axis = 1e-6;
+
 struct Rows {
   std::int64_t begin = 0, end = 0;  ///< lattice indices along the first direction [begin, end)
 };
@@ -96,6 +99,11 @@ BodyRow inside_row(ShapeSpec const& shape, Lattice const& lattice, int j, int k)
   BodyRow row{row_within(shape, lattice, shape.radius * shape.radius, j, k), {}};
   double const inner2 = shape.inner_radius * shape.inner_radius;
   if (inner2 > 0) row.hole = row_within(shape, lattice, inner2 * (1 - rounding), j, k);
+  if (shape.axisymmetric) {
+    auto const from = static_cast<std::int64_t>(std::ceil(-lattice.first[0] / lattice.spacing[0] - on_axis));
+    for (Rows* const part : {&row.all, &row.hole})
+      *part = {std::max(part->begin, from), std::max({part->end, part->begin, from})};
+  }
   return row;
 }
 
@@ -106,6 +114,9 @@ double share_of_cell(ShapeSpec const& shape, Lattice const& lattice, Index3 cons
     if (!on_faces(shape, d) || lattice.count[i] == 1) continue;
     if (index[i] == 0 || index[i] == lattice.count[i] - 1) share /= 2;
   }
+  if (shape.axisymmetric && shape.kind != ShapeSpec::Kind::box &&
+      std::abs(lattice.first[0] + index[0] * lattice.spacing[0]) < on_axis * lattice.spacing[0])
+    share /= 2;
   return share;
 }
 
@@ -118,6 +129,7 @@ Vec3 position(ShapeSpec const& shape, Lattice const& lattice, Index3 const& inde
     if (!on_faces(shape, d) || lattice.count[i] == 1 || index[i] < lattice.count[i] - 1) continue;
     X[i] = along_axis(shape, d) ? shape.centre[i] + shape.length : shape.max[i];
   }
+  if (shape.axisymmetric && std::abs(X[0]) < on_axis * lattice.spacing[0]) X[0] = 0;
   return X;
 }
 

@@ -14,6 +14,7 @@
 #include "piola/particles/body_range.hpp"
 #include "piola/setup/cloud_file.hpp"
 #include "piola/setup/packing_file.hpp"
+#include "piola/setup/solids_of_revolution.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -202,9 +203,12 @@ class SurfacePieces {
 
 /// Particles counted from the body's first.
 std::vector<PatchWeight> find_shares(ShapeSpec const& shape, ParticleSet const& particles, Body const& body) {
+  constexpr double rounding = 1e-9;
   double const spacing = body.spacing[0];
   std::vector<geometry::SurfacePiece> pieces;
   shape.solid->cut_surface(0.25 * spacing, pieces);
+  if (particles.axisymmetric)
+    for (auto& piece : pieces) piece.area = (piece.X[0] > rounding * spacing ? circle(piece.X[0]) : 0) * piece.area;
   NearestParticle const nearest(particles, body);
   std::vector<std::size_t> owner(pieces.size());
   exec_host::parallel_for(static_cast<Index>(pieces.size()), [&](Index i) {

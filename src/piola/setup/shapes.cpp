@@ -8,6 +8,7 @@
 #include "piola/setup/packed_bodies.hpp"
 #include "piola/setup/random_cloud.hpp"
 #include "piola/setup/rings.hpp"
+#include "piola/setup/solids_of_revolution.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -33,6 +34,7 @@ Outline outline_of(ShapeSpec const& shape) {
     outline.min[i] = along ? shape.centre[i] : shape.centre[i] - shape.radius;
     outline.max[i] = along ? shape.centre[i] + shape.length : shape.centre[i] + shape.radius;
   }
+  if (shape.axisymmetric) outline.min[0] = std::max(outline.min[0], 0.0);
   outline.inside = [shape](Vec3 const& X) {
     double square = 0;
     for (int d = 0; d < shape.dimension; ++d) {
@@ -150,6 +152,7 @@ void fill(ShapeSpec const& shape, std::string const& name, ParticleSet& set) {
   else
     fill_lattice(shape, set, body);
   body.last = set.size();
+  if (set.axisymmetric) take_ring_volumes(shape, set, body);
   PIOLA_ENSURES(is_range_in(body, set));
   PIOLA_ENSURES(set.volume.size() == set.X.size() && set.kernel_volume.size() == set.X.size());
   PIOLA_ENSURES(set.lattice_index.size() == set.X.size() && set.body.size() == set.X.size());

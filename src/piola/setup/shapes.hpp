@@ -28,6 +28,7 @@ struct ShapeSpec {
   enum class Arrangement { lattice, rings, lattice_with_rings, packed };
   Kind kind = Kind::box;
   int dimension = 3;
+  bool axisymmetric = false;                       ///< a half section: x is the radius
   std::array<double, 3> min{}, max{};              ///< box
   std::array<double, 3> centre{};                  ///< sphere (2D: disc); cylinder: centre of the lower end
   double radius = 0;                               ///< sphere, cylinder
@@ -84,6 +85,7 @@ int particles_over(double length, double spacing, ShapeSpec::Placement placement
 ///  - Solid, lattice: the cells of a lattice about the middle of its box whose middle lies inside, all full.
 ///  - Points: as read from a file; such a body has no outline.
 /// Tributary volumes of a box sum to its exact volume; kernel volumes are the product of the spacings.
+///  - Axisymmetric: discs are cut at the axis x = 0; volumes are those of rings, the full circle.
 /// Jitter moves particles that are not on a face of the body by up to jitter * spacing in each direction; the same seed
 /// gives the same particles on every machine.
 void fill(ShapeSpec const& shape, std::string const& name, ParticleSet& set);

@@ -15,6 +15,7 @@
 #include "piola/model/case_particles.hpp"
 #include "piola/model/region_checks.hpp"
 #include "piola/neighbours/particle_cells.hpp"
+#include "piola/particles/body_extents.hpp"
 #include "piola/particles/part_properties.hpp"
 #include "piola/setup/contact_surface.hpp"
 #include "piola/simulation/driver_and_workers.hpp"
@@ -267,6 +268,8 @@ Assembly assemble(CaseSpec const& spec, ParticleSet particles) {
   for (MirrorSpec const& mirror : spec.mirrors)
     a.mirrors.push_back(
         {index_of_body(mirror.body, a.particles), mirror.face.axis, mirror.face.upper, mirror.antisymmetric});
+  for (std::size_t b = 0; b < a.particles.bodies.size(); ++b)
+    if (touches_axis(a.particles, a.particles.bodies[b])) a.mirrors.push_back({b, 0, false, false});
   a.rigid_shapes.assign(spec.rigids.begin(), spec.rigids.end());
   if (spec.contact) a.contact = *spec.contact;
   a.contact_pairs.assign(spec.contact_pairs.begin(), spec.contact_pairs.end());

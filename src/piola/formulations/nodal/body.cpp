@@ -75,7 +75,8 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
              {.viscosity = options.fluctuation_viscosity > 0 || options.shock_viscosity > 0,
               .solids = options.solids,
               .offset = !assembly.initial_deformation_gradient.empty(),
-              .implicit_pressure = options.implicit_pressure}) {
+              .implicit_pressure = options.implicit_pressure,
+              .axisymmetric = set.axisymmetric}) {
   state_.slots = even_range_of_rank(order_.slots(), comm::rank(), comm::size());
   state_.all_slots = order_.slots();
   state_.particles = order_.particles;

@@ -86,6 +86,10 @@ void Boundary::take_loads(Assembly const& assembly, BodyInput const& of_body, st
   for (auto const& p : driven_.loaded()) {
     auto const own = of_body.centroid.begin() + std::ptrdiff_t{p.slot} * D_;
     centroid_.insert(centroid_.end(), own, own + D_);
+    if (!assembly.particles.axisymmetric) continue;
+    double const R =
+        assembly.particles.X[static_cast<std::size_t>(of_body.order.id[static_cast<std::size_t>(p.slot)])][0];
+    radius_.push_back(R > 1e-6 * body_.spacing[0] ? R : 0);
   }
 }
 
@@ -111,6 +115,7 @@ void Boundary::begin_step(BodyState& state, double time, double dt) {
   state.boundary.loaded = driven_.loaded().data();
   state.boundary.loaded_count = static_cast<Index>(driven_.loaded().size());
   state.boundary.loaded_centroid = centroid_.data();
+  state.boundary.loaded_radius = radius_.empty() ? nullptr : radius_.data();
   state.boundary.follows = follows_;
 }
 

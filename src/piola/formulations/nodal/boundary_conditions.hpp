@@ -77,6 +77,7 @@ class Boundary {
   BodyBoundary driven_;
   SurfaceConstraint surface_;
   std::vector<double> centroid_;  ///< of the cells of loaded particles, relative to the particles [m]
+  std::vector<double> radius_;    ///< axisymmetric bodies: see BoundaryState::loaded_radius
   DeferredGlobalSum work_;
   std::optional<Range> own_;  ///< empty: all slots
   bool follows_ = false;      ///< whether any load is a follower load (replicated)

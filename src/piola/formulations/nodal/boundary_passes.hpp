@@ -16,9 +16,10 @@ struct TurnLoads {
   bool at_end;
   LoadedParticle* loaded;
   double const* centroid;  ///< [loaded][D]: of the cell, relative to the particle [m]
+  double const* radius;    ///< [loaded]: reference radius, 0 on the axis [m]; nullptr: not axisymmetric
   ListSums<D> list;
   ReferenceView k;
-  View offset;
+  View offset, x;
 
   PIOLA_FN void operator()(Index n) const {
     using R = Records<D>;
@@ -36,7 +37,9 @@ struct TurnLoads {
         for (int K = 0; K < D; ++K) F(c, J) -= H[Quadratic<D>::at(J, K)] * centroid[n * D + K];
       }
     }
-    turn_load<D>(p, at_end, cofactor(embed<D>(F)));
+    Mat<3> whole = embed<D>(F);
+    if (radius != nullptr) whole(2, 2) = radius[n] > 0 ? x.scalar<double>(p.slot) / radius[n] : F(0, 0);
+    turn_load<D>(p, at_end, cofactor(whole));
   }
 };
 

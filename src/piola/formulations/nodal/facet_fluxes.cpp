@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/facet_fluxes.hpp"
 #include "piola/exec/host_loops.hpp"
+#include "piola/formulations/nodal/hoop_stretch.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -117,6 +118,9 @@ bool FacetFluxes<D>::fill_row(std::size_t a) {
   bool good = true;
   for (std::size_t const k : facets_.of(a)) good = add_facet(a, body_.facets[k], candidates) && good;
   for (std::size_t const k : patches_.of(a)) add_surface(body_.patches[k]);
+  each_hoop_share(a, [&](std::size_t k, double share) {
+    if (k != itself) flux_[k * D] -= share;
+  });
   return good;
 }
 
@@ -181,6 +185,12 @@ void FacetFluxes<D>::add_surface(SurfacePatch const& patch) {
     });
 }
 
+template <int D>
+template <class F>
+void FacetFluxes<D>::each_hoop_share(std::size_t a, F const& f) const {
+  if (!body_.sections.empty()) each_share<D>(fits_, a, integral_over_section(body_.sections[a]), f);
+}
+
 /// Largest error of the gradients of the quadratic monomials.
 template <int D>
 double FacetFluxes<D>::error_of_row(std::size_t a) const {
@@ -221,6 +231,10 @@ GradientQuality FacetFluxes<D>::measure(SurfaceIntegrals<D> const& surface) cons
       }
       if (own) steepest[a] = std::max(steepest[a], std::sqrt(square) / body_.cells[a].volume);
     }
+    // The divergence has a hoop part, which the particle itself has a share of.
+    each_hoop_share(a, [&](std::size_t k, double share) {
+      if (std::size_t const b = particle_of_share<D>(fits_, a, k); mine(b)) left[b * D] -= share;
+    });
     if (own && fits_.representative(a) == a) rows[a] = error_of_row(a);
   });
   GradientQuality found;

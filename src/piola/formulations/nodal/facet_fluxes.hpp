@@ -54,6 +54,10 @@ class FacetFluxes {
   std::vector<Candidate> candidates_of(std::size_t a) const;
   bool add_facet(std::size_t a, CellFacet const& facet, std::vector<Candidate> const& candidates);
   void add_surface(SurfacePatch const& patch);
+  /// Calls f(k, share) with the weights of particles in the integral of a radial field over the section of cell a, as
+  /// each_share(). The flux of R f through the surface of a cell is int (R df/dR + f) dA.
+  template <class F>
+  void each_hoop_share(std::size_t a, F const& f) const;
   double error_of_row(std::size_t a) const;
 
   LocalFits<D>& fits_;

@@ -25,6 +25,7 @@ void FieldSetUp::fill_reference() {
     copy_at(r.L, s_.L, D * D, i);
     copy_at(r.own, s_.own, D + second, i);
     if (lists) copy_at(r.k, s_.k, Fields::terms(D) * second, i);
+    if (s_.has.axisymmetric) copy_at(r.hoop, s_.hoop, static_cast<int>(HoopSums::size), i);
     // Slots without a particle hold nothing that counts.
     for (int c = 0; c < D && i < body_.particles(); ++c) value_at(s_.C_measured, i, c) = 1;
   });
@@ -33,7 +34,7 @@ void FieldSetUp::fill_reference() {
     for (std::size_t n = 0; n < r.images.size(); ++n) copy_at(r.X, s_.X, D, body_.slots() + static_cast<Index>(n));
     for (Index n = 0; n < s_.ghost_count; ++n) copy_at(r.X, s_.X, D, s_.ghosts[n]);
   }
-  for (auto* array : {&r.L, &r.k, &r.own}) LazyZeroArray<double>().swap(*array);
+  for (auto* array : {&r.L, &r.k, &r.own, &r.hoop}) LazyZeroArray<double>().swap(*array);
 }
 
 std::vector<MirroredParticle> FieldSetUp::keep_own_side() {
@@ -79,6 +80,7 @@ void FieldSetUp::fill_histories() {
           int const at = HistoryLayout::point(q, D);
           value_at(s_.history, i, at + HistoryLayout::temperature) = law.initial_temperature();
           for (int c = 0; c < D; ++c) value_at(s_.history, i, at + HistoryLayout::F + c * (D + 1)) = 1;
+          if (D == 2) value_at(s_.history, i, at + HistoryLayout::F + 4) = 1;
         }
     });
 }

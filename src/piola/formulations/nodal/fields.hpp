@@ -13,6 +13,15 @@ auto with_dimension(int D, F const& f) {
   return f(std::integral_constant<int, 3>{});
 }
 
+/// Layout of the field `hoop` of axisymmetric bodies: coefficients of the hoop stretch of a cell,
+///   F_33 = eta_0 + t_1 eta_1 + t_2 eta_2 at point t,   eta_n = sum_l T_l of_sum(l, n) + r of_radius(n),
+/// T the sums of the radial motion, r the radius of the particle; `own`: minus the derivative of eta by r.
+struct HoopSums {
+  static constexpr std::size_t terms = 5, numbers = 3;
+  static constexpr std::size_t of_sum(std::size_t l, std::size_t n) { return l * numbers + n; }
+  static constexpr std::size_t own = terms * numbers, of_radius = own + numbers, size = of_radius + numbers;
+};
+
 /// Layout of the field `history` of solids in rate form, at the end of the last step.
 struct HistoryLayout {
   /// Values of the cell: pressure, positive in compression [Pa]; specific internal energy [J/kg].
@@ -25,10 +34,10 @@ struct HistoryLayout {
     damage,              ///< 0 to 1
     plastic_work,        ///< per reference volume [J/m^3]
     spread,              ///< tension over that of the cell [Pa]
-    F                    ///< deformation gradient, D x D values
+    F                    ///< deformation gradient, D x D values; D = 2: and the stretch of the third direction
   };
 
-  static constexpr int point(int q, int D) { return of_cell + q * (F + D * D); }
+  static constexpr int point(int q, int D) { return of_cell + q * (F + D * D + (D == 2 ? 1 : 0)); }
 };
 
 /// Conditions under which a body has fields beyond those of the elastic motion.
@@ -37,6 +46,7 @@ struct FieldNeeds {
   bool solids = false;  ///< some cell has a solid in rate form
   bool offset = false;  ///< F starts from given values
   bool implicit_pressure = false;
+  bool axisymmetric = false;
 };
 
 /// The one list of particle fields of the nodal formulation, and what loops get of them. Memory and checkpoints follow
@@ -69,6 +79,8 @@ struct Fields {
               in_records};
   ListedRef own{owner, "SumsOfGradients", "1", dimension + second(dimension), Role::reference};
   ListedRef X{owner, "ReferencePositionInSpacings", "1", dimension, Role::reference, in_records};
+  ListedRef hoop{owner,           "HoopStretchOfSums", "1/m", static_cast<int>(HoopSums::size),
+                 Role::reference, has.axisymmetric};
   ListedRef offset{owner, "GradientOffset", "1", dimension* dimension, Role::reference, has.offset};
 
   // Evolved: position, velocity; acceleration by all forces at x; F^T F at the last measurement of the step; largest

@@ -2,6 +2,7 @@
 #include "piola/formulations/nodal/gradient_tables.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
+#include "piola/formulations/nodal/hoop_stretch.hpp"
 #include "piola/formulations/nodal/mirror_passes.hpp"
 #include <algorithm>
 #include <cmath>
@@ -58,6 +59,10 @@ void GradientTables<D>::operator()(LazyZeroArray<double> const& mass, std::optio
   } else {
     to_.k = Values(slots_ * terms * second);
     for_each_local([this](std::size_t a) { fill_second(a, &to_.k[a * terms * second]); });
+    if (!scaled_.sections.empty()) {
+      to_.hoop = Values(slots_ * HoopSums::size);
+      for_each_local([this](std::size_t a) { fill_hoop(a); });
+    }
     fill_pairs();
   }
   take_lists();
@@ -161,6 +166,34 @@ void GradientTables<D>::fill_second(std::size_t a, double* k) const {
         k[static_cast<std::size_t>(l) * second + static_cast<std::size_t>(n)] =
             odd(a, l, D + n) ? 0 : fits_.inverse(a, D + n, l) / hh;
     }
+}
+
+/// The hoop stretch of a cell from the sums T of the radial motion, and its derivatives by the particle's own radius.
+template <int D>
+void GradientTables<D>::fill_hoop([[maybe_unused]] std::size_t a) {
+  if constexpr (D == 2) {
+    auto const L = cholesky<2>(scaled_.cells[a], {1, 1, 1});
+    auto eta = hoop_functionals(scaled_.cells[a], scaled_.sections[a], L);
+    for (std::size_t n = 0; n < eta.size(); ++n)
+      for (double& value : eta[n]) value *= (n == 0 ? 1 : parity(a)) / scaled_.h[0];
+    double* const to = &to_.hoop[a * HoopSums::size];
+    for (std::size_t n = 0; n < eta.size(); ++n)
+      for (std::size_t l = 0; l < terms; ++l)
+        for (std::size_t m = 0; m < terms; ++m)
+          if (!odd(a, static_cast<int>(l), static_cast<int>(m)))
+            to[HoopSums::of_sum(l, n)] += eta[n][1 + m] * fits_.inverse(a, static_cast<int>(m), static_cast<int>(l));
+    auto const& pairs = fits_.pairs();
+    for (std::size_t n = 0; n < eta.size(); ++n) {
+      to[HoopSums::of_radius + n] = eta[n][0];
+      to[HoopSums::own + n] = -eta[n][0];
+    }
+    for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
+      auto const p = fits_.monomials_of(a, pairs.at(k));
+      for (std::size_t n = 0; n < eta.size(); ++n)
+        for (std::size_t l = 0; l < terms; ++l)
+          to[HoopSums::own + n] += pairs.weight[k] * p[l] * to[HoopSums::of_sum(l, n)];
+    }
+  }
 }
 
 /// Volume of a cell in spacings; on a lattice that of the first particle of its kind, so that gradients are those of

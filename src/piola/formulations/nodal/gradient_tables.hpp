@@ -28,6 +28,7 @@ class GradientTables {
   void fill_images();
   void fill_cell(std::size_t a, double mass);
   void fill_second(std::size_t a, double* k) const;
+  void fill_hoop(std::size_t a);
   void fill_pairs();
   void take_lists();
   void fill_lattice(LatticeShape const& shape);

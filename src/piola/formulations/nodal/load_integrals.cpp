@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 
 namespace piola::nodal {
 namespace {
@@ -115,6 +116,8 @@ std::vector<LazyZeroArray<FacePart>> load_integrals(SetUp const& from, LocalFits
   Point area{1, 1, 1};  // of a patch of size one in spacings, by its axis
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (std::size_t c = 0; c < static_cast<std::size_t>(D); ++c) area[axis] *= c == axis ? 1 : of.h[c];
+  if (from.set.axisymmetric)
+    for (double& size : area) size *= 2 * std::numbers::pi * of.h[0];
   for (auto const& load : from.loads) {
     parts.emplace_back();
     if (!load.on_face()) continue;

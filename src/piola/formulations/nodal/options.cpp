@@ -70,6 +70,7 @@ FormulationInfo info() {
   info.parts = true;
   info.surface_supports = true;
   info.minimises = true;
+  info.axisymmetric = true;
   info.outline = true;  // cells end at the surface, and mirror planes are there
   return info;
 }

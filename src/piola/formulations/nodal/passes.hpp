@@ -12,10 +12,11 @@
 /// Pairs of a list have r = X_b - X_a in spacings, the weight s, and gradients G.
 namespace piola::nodal::inline PIOLA_BACKEND {
 
-/// Sums of the motion of a group of lanes: per component c, F_cJ and then H_cn.
+/// Sums of the motion of a group of lanes: per component c, F_cJ and then H_cn. In 2D three more, the hoop stretch of
+/// axisymmetric bodies.
 template <int D>
 struct MotionSums {
-  static constexpr int numbers = D + Quadratic<D>::second, sums = D * numbers;
+  static constexpr int numbers = D + Quadratic<D>::second, hoop_sums = D * numbers, sums = hoop_sums + (D == 2 ? 3 : 0);
 };
 
 /// The sweep that fills a block's scratch with F_a and H_a, see MotionSums:
@@ -24,10 +25,12 @@ template <int D>
 struct SumMotion : MotionSums<D> {
   using R = Records<D>;
   ListSums<D> list;
-  ReferenceView k;
+  ReferenceView k, hoop;  ///< hoop: no data unless the body is axisymmetric
+  View x;
 
-  PIOLA_FN SumMotion(ListSums<D> const& sums_of_list, ReferenceView const& to_second)
-      : list(sums_of_list), k(to_second) {}
+  PIOLA_FN SumMotion(ListSums<D> const& sums_of_list, ReferenceView const& to_second, ReferenceView const& to_hoop,
+                     View const& position)
+      : list(sums_of_list), k(to_second), hoop(to_hoop), x(position) {}
   PIOLA_FN void operator()(Index i, exec::Scratch const& out) const {
     constexpr int second = Quadratic<D>::second;
     alignas(64) double rows[lane_count * D * R::width];
@@ -45,6 +48,20 @@ struct SumMotion : MotionSums<D> {
         for (int n = 0; n < second; ++n) H[n] = H[n] + T[m] * to_H[m * second + n];
       for (int J = 0; J < D; ++J) store(T[R::terms + J], out.at(i, c * SumMotion::numbers + J));
       for (int n = 0; n < second; ++n) store(H[n], out.at(i, c * SumMotion::numbers + D + n));
+      if constexpr (D == 2)
+        if (c == 0 && hoop.stored.data != nullptr) put_hoop(i, T, out);
+    }
+  }
+
+ private:
+  /// T: sums of the radial motion.
+  PIOLA_INLINE_FN void put_hoop(Index i, Lanes const (&T)[R::used], exec::Scratch const& out) const {
+    LanesOfField const of = lanes_of(hoop, i);
+    Lanes const r = x.scalar<Lanes>(i);
+    for (int n = 0; n < static_cast<int>(HoopSums::numbers); ++n) {
+      Lanes eta = r * of[static_cast<int>(HoopSums::of_radius) + n];
+      for (int l = 0; l < R::terms; ++l) eta = eta + T[l] * of[l * static_cast<int>(HoopSums::numbers) + n];
+      store(eta, out.at(i, SumMotion::hoop_sums + n));
     }
   }
 };

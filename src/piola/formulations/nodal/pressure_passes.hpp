@@ -17,7 +17,7 @@ struct LinearisePressure {
   WriteView unit, ratio;
 
   PIOLA_INLINE_FN void operator()(Index i, exec::Scratch const& in) const {
-    CellPoints<D> at = cell_points<D>(resultants.L, i, in);
+    CellPoints<D> at = cell_points<D>(resultants.L, false, i, in);
     if (offset.data != nullptr) at.F = at.F + offset.matrix<D, Lanes>(i);
     Mat<3, Lanes> area[points];
     Lanes mean = Lanes(0.0);
@@ -65,7 +65,8 @@ struct StressOfPressure {
     Lanes rows[D][numbers];
     for (int c = 0; c < D; ++c)
       for (int n = 0; n < numbers; ++n) rows[c][n] = p * of_unit[c * numbers + n];
-    resultants.put(i, rows);
+    Lanes const no_hoop[3]{};
+    resultants.put(i, rows, no_hoop);
   }
 };
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/scaled_body.hpp"
+#include "piola/formulations/nodal/hoop_stretch.hpp"
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <tuple>
 #include <utility>
 
@@ -171,7 +173,10 @@ class FacetsBehindPlanes {
 void continue_behind_planes(ScaledBody& r, MirrorImages const& images) {
   for (std::size_t i = 0; i < r.particles; ++i)
     for (std::size_t axis = 0; axis < 3; ++axis)
-      if (images.on_plane(static_cast<Index>(i), axis)) r.cells[i] = completed(r.cells[i], axis);
+      if (images.on_plane(static_cast<Index>(i), axis)) {
+        r.cells[i] = completed(r.cells[i], axis);
+        if (!r.sections.empty()) r.sections[i] = completed_section(r.sections[i], axis);
+      }
   auto const surface = std::move(r.patches);
   r.patches = open_surface(surface, images);
   std::vector<std::vector<std::size_t>> patches_of(r.particles);
@@ -182,6 +187,7 @@ void continue_behind_planes(ScaledBody& r, MirrorImages const& images) {
     r.X.push_back(images.particles().X[static_cast<std::size_t>(k)]);
     for (std::size_t c = 0; c < 3; ++c) r.X.back()[c] /= r.h[c];
     r.cells.push_back(reflected(r.cells[source], images.sign(k)));
+    if (!r.sections.empty()) r.sections.push_back(reflected_section(r.sections[source], images.sign(k)));
     for (std::size_t const p : patches_of[source]) {
       r.patches.push_back(reflected(r.patches[p], images.sign(k)));
       r.patches.back().particle = static_cast<Index>(r.particles) + k;
@@ -203,6 +209,15 @@ ScaledCell scaled(CellMoments const& cell, ScaledBody const& body) {
   for (std::size_t c = 0; c < 3; ++c) r.centroid[c] /= body.h[c];
   for (std::size_t m = 0; m < 6; ++m) r.spread[m] /= body.h[moment_axis[m][0]] * body.h[moment_axis[m][1]];
   return r;
+}
+
+SectionMoments scaled(SectionMoments section, ScaledBody const& body) {
+  double const circle = body.h_volume / (body.h[0] * body.h[1] * body.h[0]);  // 2 pi
+  for (std::size_t m = 0; m < SectionMoments::powers.size(); ++m) {
+    auto const [i, j] = SectionMoments::powers[m];
+    section.of[m] /= circle * std::pow(body.h[0], i + 1) * std::pow(body.h[1], j + 1);
+  }
+  return section;
 }
 
 /// Which particles need their facets.
@@ -251,6 +266,7 @@ ScaledBody scaled_body(SetUp const& from, std::optional<LatticeShape> const& lat
     r.h[c] = body.spacing[c];
     r.h_volume *= body.spacing[c];
   }
+  if (set.axisymmetric) r.h_volume *= 2 * std::numbers::pi * r.h[0];
   BodyCells measured = measure_cells(set, body, wanted_facets(from, lattice));
   std::vector<Index> slot_of(measured.cell.size());
   r.X.reserve(measured.cell.size());
@@ -262,6 +278,7 @@ ScaledBody scaled_body(SetUp const& from, std::optional<LatticeShape> const& lat
     r.X.push_back(set.X[static_cast<std::size_t>(id)]);
     for (std::size_t c = 0; c < 3; ++c) r.X.back()[c] /= r.h[c];
     r.cells.push_back(scaled(measured.cell[local], r));
+    if (set.axisymmetric) r.sections.push_back(scaled(measured.section[local], r));
   }
   r.particles = r.X.size();
   take_surface(std::move(measured), slot_of, r);

@@ -30,10 +30,12 @@ constexpr std::size_t moment_of_second(int at) {
 struct ScaledBody {
   Points X;
   LazyZeroArray<ScaledCell> cells;
+  std::vector<SectionMoments> sections;  ///< of the cells of axisymmetric bodies
   std::vector<SurfacePatch> patches;
   std::vector<CellFacet> facets;
   std::array<double, 3> h{1, 1, 1};
-  double h_volume = 1;                    ///< product of the spacings
+  /// Product of the spacings; of axisymmetric bodies times the circle with the radius of one spacing [m^D or m^3].
+  double h_volume = 1;
   std::size_t particles = 0;              ///< without images
   double farthest_move = 0, unmoved = 0;  ///< see BodyCells
 };

@@ -53,10 +53,10 @@ LazyZeroArray<ScaledCell> heavy_cells(SetUp const& from, LazyZeroArray<ScaledCel
 }
 
 /// The lattice of a body for loops, if possible. Lists are needed by follower pressures, which use gradients particle
-/// by particle, and by images, which are not on the lattice.
+/// by particle, by images, which are not on the lattice, and by axisymmetric bodies, whose cells differ.
 std::optional<LatticeShape> shape_for_loops(SetUp const& from) {
   bool const follows = std::any_of(from.loads.begin(), from.loads.end(), [](Load const& load) { return load.follows; });
-  if (follows || from.images != nullptr) return std::nullopt;
+  if (follows || from.images != nullptr || from.set.axisymmetric) return std::nullopt;
   return lattice_shape(from.set, from.body, from.order);
 }
 
@@ -85,7 +85,7 @@ template <int D>
 LazyZeroArray<double> masses(SetUp const& from, ScaledBody const& scaled, std::optional<LatticeShape> const& shape,
                              MassOptions const& options) {
   auto const heavy = heavy_cells(from, scaled.cells);
-  if (heavy.empty() && has_lattice_cells(from.body))
+  if (heavy.empty() && has_lattice_cells(from.body) && !from.set.axisymmetric)
     if (auto mass = lattice_masses(scaled, D, from.least_mass)) return std::move(*mass);
   auto mass =
       exact_masses<D>(scaled.X, heavy.empty() ? scaled.cells : heavy,

@@ -69,6 +69,7 @@ struct LatticeGradients {
 /// ghosts. Theory: docs/theory/nodal.md, section 3.
 struct Reference {
   LazyZeroArray<double> V, mass, L, k, own;
+  LazyZeroArray<double> hoop;                  ///< axisymmetric bodies, see HoopSums
   LazyZeroArray<double> X;                     ///< in spacings, D per slot
   LazyZeroArray<double> centroid;              ///< of the cell relative to the particle, D per slot [m]
   std::vector<LazyZeroArray<FacePart>> parts;  ///< per load on a face, per slot; empty for other loads

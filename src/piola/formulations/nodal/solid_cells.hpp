@@ -193,6 +193,7 @@ class SolidCells {
       Mat<D, Lanes> F;
       for (int c = 0; c < D * D; ++c) F.c[c] = value(at + HistoryLayout::F + c);
       cell.F[q] = embed<D>(F);
+      if constexpr (D == 2) cell.F[q](2, 2) = value(at + HistoryLayout::F + D * D);
     }
     return cell;
   }
@@ -211,6 +212,7 @@ class SolidCells {
       put(cell.spread[q], at + HistoryLayout::spread);
       for (int c = 0; c < 6; ++c) put(cell.S[q].c[c], at + HistoryLayout::S + c);
       for (int c = 0; c < D * D; ++c) put(cell.F[q](c / D, c % D), at + HistoryLayout::F + c);
+      if constexpr (D == 2) put(cell.F[q](2, 2), at + HistoryLayout::F + D * D);
     }
   }
 

@@ -62,6 +62,7 @@ struct BoundaryState {
   LoadedParticle* loaded = nullptr;
   Index loaded_count = 0;
   double const* loaded_centroid = nullptr;  ///< [loaded][D]: of the cell, relative to the particle [m]
+  double const* loaded_radius = nullptr;  ///< [loaded]: reference radius, 0 on the axis [m]; nullptr: not axisymmetric
   MirroredParticle const* mirrored = nullptr;
   Index mirrored_count = 0;
   SurfaceConstraint* surface = nullptr;  ///< surface places that supports hold; nullptr: none

@@ -94,8 +94,13 @@ class Step {
   }
 
   StressResultants<D> resultants() const {
-    return {b_.particles,         read_reference(b_.V),   read_reference(b_.L),
-            read_reference(b_.k), read_reference(b_.own), write(b_.stress_for_neighbours),
+    return {b_.particles,
+            read_reference(b_.V),
+            read_reference(b_.L),
+            read_reference(b_.k),
+            read_reference(b_.own),
+            read_reference(b_.hoop),
+            write(b_.stress_for_neighbours),
             write(b_.a)};
   }
 
@@ -105,7 +110,8 @@ class Step {
       exec::for_each_then(
           slots, SumLatticeMotion<D>(LatticeSums<D>{b_.lattice, read_neighbours(b_.motion_for_neighbours), {}}), then);
     else
-      exec::for_each_then(slots, SumMotion<D>(of_motion(), read_reference(b_.k)), then);
+      exec::for_each_then(slots, SumMotion<D>(of_motion(), read_reference(b_.k), read_reference(b_.hoop), read(b_.x)),
+                          then);
   }
 
   void sum_forces() {
@@ -130,8 +136,9 @@ class Step {
 
   void turn_loads(bool at_end) {
     halo_.refresh(b_.x);
-    exec::for_each_item(b_.boundary.loaded_count, TurnLoads<D>{at_end, b_.boundary.loaded, b_.boundary.loaded_centroid,
-                                                               of_motion(), read_reference(b_.k), read(b_.offset)});
+    exec::for_each_item(b_.boundary.loaded_count,
+                        TurnLoads<D>{at_end, b_.boundary.loaded, b_.boundary.loaded_centroid, b_.boundary.loaded_radius,
+                                     of_motion(), read_reference(b_.k), read(b_.offset), read(b_.x)});
   }
 
   void drive(double dt) {

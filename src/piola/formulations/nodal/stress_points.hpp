@@ -119,10 +119,10 @@ struct UpdateStress {
   FailureSlot* failure;
 
   PIOLA_INLINE_FN void operator()(Index i, exec::Scratch const& in) const {
-    CellPoints<D> at = cell_points<D>(out.L, i, in);
+    CellPoints<D> at = cell_points<D>(out.L, out.has_hoop(), i, in);
     if (offset.data != nullptr) at.F = at.F + offset.matrix<D, Lanes>(i);
     CellEnergy<Law, points, Observed> energy{law, constants.kappa, constants.kappa_local, {}, {}, {}, {}, {}, {}};
-    for (int q = 0; q < points; ++q) energy.F[q] = embed<D>(at.at(q));
+    for (int q = 0; q < points; ++q) energy.F[q] = at.whole_at(q);
     if constexpr (std::is_same_v<Law, SolidCells<D>>)
       law(i, energy);
     else if (D < 3 && constants.stress_free)
@@ -140,7 +140,9 @@ struct UpdateStress {
       change.scalar(i, energy.least_J, 1);
       Lanes rows[D][numbers];
       out.rows_of(i, energy.P, rows);
-      out.put(i, rows);
+      Lanes q[3]{};
+      if (out.has_hoop()) out.hoop_of(i, energy.P, q);
+      out.put(i, rows, q);
     }
   }
 

@@ -8,8 +8,8 @@
 /// section 5.
 namespace piola::nodal::inline PIOLA_BACKEND {
 
-/// History of a cell. Per point: the strain E and the viscous stress S at the end of the last step. Per cell: the mean
-/// in-plane volume ratio, the shock pressure Q, and the dissipated energy per volume.
+/// History of a cell. Per point: the strain E in the directions of the body and the viscous stress S at the end of the
+/// last step. Per cell: the mean volume ratio, the shock pressure Q, and the dissipated energy per volume.
 template <int D>
 struct ViscousHistory {
   static constexpr int strain = SymMat<D>::size, points = Quadratic<D>::points;
@@ -39,7 +39,7 @@ struct Viscosity {
     for (int q = 0; q < At::points; ++q) {
       F[q] = at.at(q);
       E[q] = strain_of<SmallStrain>(F[q]);
-      ratio = ratio + (1.0 / At::points) * volume_ratio_of(SmallStrain, embed<D>(F[q]));
+      ratio = ratio + (1.0 / At::points) * volume_ratio_of(SmallStrain, at.whole_at(q));
       for (int c = 0; c < At::strain; ++c) {
         Lanes const change = (1.0 / At::points) * (E[q].c[c] - before.scalar<Lanes>(i, q * At::strain + c));
         mean.c[c] = q == 0 ? change : mean.c[c] + change;
@@ -63,7 +63,7 @@ struct Viscosity {
                 closing = maximum((0.0 - rate) * change, Lanes(0.0));
     Lanes const Q = closing * (constants.shock_linear + constants.shock_quadratic * closing);
     if (rate > 0) loss = loss - 0.5 * (Q + before.scalar<Lanes>(i, At::Q)) * change;
-    for (int q = 0; q < At::points; ++q) add_to_corner(energy.P[q], (0.0 - Q) * area_map<SmallStrain>(F[q]));
+    for (int q = 0; q < At::points; ++q) energy.P[q] = energy.P[q] + (0.0 - Q) * area_map<SmallStrain>(at.whole_at(q));
     after.scalar(i, ratio, At::ratio);
     after.scalar(i, Q, At::Q);
     after.scalar(i, loss, At::loss);
@@ -93,11 +93,11 @@ struct Viscosity {
       return F * S;
   }
   template <bool SmallStrain>
-  PIOLA_FN static Mat<D, Lanes> area_map(Mat<D, Lanes> const& F) {
+  PIOLA_FN static Mat<3, Lanes> area_map(Mat<3, Lanes> const& F) {
     if constexpr (SmallStrain)
-      return identity<D, Lanes>();
+      return identity<3, Lanes>();
     else
-      return restrict_to<D>(cofactor(embed<D>(F)));
+      return cofactor(F);
   }
   PIOLA_FN static void add_to_corner(Mat<3, Lanes>& P, Mat<D, Lanes> const& more) {
     for (int i = 0; i < D; ++i)

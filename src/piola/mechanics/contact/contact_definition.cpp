@@ -7,7 +7,8 @@ namespace piola::contact {
 
 ContactDefinition::ContactDefinition(ParticleSet const& particles, SurfacePoints const& points,
                                      std::vector<RigidSurface> const& rigids, PairSettings settings)
-    : bodies_(points.surfaces().size()),
+    : axisymmetric_(particles.axisymmetric),
+      bodies_(points.surfaces().size()),
       rigids_(rigids.size()),
       points_(at(points.count())),
       settings_(std::move(settings)) {
@@ -48,7 +49,8 @@ void ContactDefinition::set_up_rigids(std::size_t body, Surface const& surface,
         {body,
          r,
          points,
-         {2 * dp, penalty_stiffness(q, pair.factor, surface.modulus, dp), 0.5 * dp, 0.7 * dp, 1.1 * dp}});
+         {2 * dp, penalty_stiffness(q, pair.factor, surface.modulus, dp), 0.5 * dp, 0.7 * dp, 1.1 * dp},
+         axisymmetric_});
   }
 }
 

@@ -4,7 +4,9 @@
 #include "piola/mechanics/contact/self_contact_exclusions.hpp"
 #include "piola/mechanics/contact/shape_points.hpp"
 #include "piola/mechanics/contact/surface_points.hpp"
+#include <algorithm>
 #include <array>
+#include <numbers>
 #include <vector>
 
 namespace piola::contact {
@@ -28,6 +30,10 @@ struct ShapePass {
   std::size_t body, rigid;
   ShapePoints points;
   PairRule rule;
+  bool axisymmetric = false;  ///< points stand for rings
+
+  /// Factor on the area of a point at the radius x [m].
+  double around(double x) const { return axisymmetric ? 2 * std::numbers::pi * std::max(x, 0.0) : 1; }
 };
 
 /// Which surface points can be in contact with which objects, and by which law. Objects are the bodies, then the rigid
@@ -75,6 +81,7 @@ class ContactDefinition {
  private:
   void set_up_rigids(std::size_t body, Surface const& surface, std::vector<RigidSurface> const& rigids);
 
+  bool axisymmetric_;
   std::size_t bodies_, rigids_, points_;  ///< numbers of them
   PairSettings settings_;
   bool has_friction_ = false;

@@ -107,7 +107,8 @@ void ShapePointContact::evaluate(Range const& range, ContactModel& model, Contac
   ContactForces& forces = state.forces;
   Gap const& gap = range.gap;
   Plane const& plane = range.plane;
-  double const dp = 2 * rule.length, area = range.point.area * weight_at_mirrors(model, range);
+  double const dp = 2 * rule.length,
+               area = range.point.area * weight_at_mirrors(model, range) * pass.around(plane.y[0]);
   Fade const theta = fade(gap.tau2(), rule.fade_from, rule.fade_to);
   double const seen = theta.value * coverage(gap.weight).value, depth = -gap.gap;
   if (!(seen > 0) || !(area > 0)) return;
