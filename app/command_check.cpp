@@ -101,7 +101,9 @@ void say_region(RegionSpec const& region, ParticleSet const& particles) {
 void print_body(BodySpec const& body, BodyProperties const& facts, ParticleSet const& particles) {
   constexpr std::array<std::string_view, 5> kinds{"box", "sphere", "cylinder", "solid", "cloud"};
   int const dimension = body.shape.dimension;
-  std::string_view const mass_unit = dimension == 3 ? "kg" : dimension == 2 ? "kg/m" : "kg/m^2";
+  std::string_view const mass_unit = dimension == 3 || particles.axisymmetric ? "kg"
+                                     : dimension == 2                         ? "kg/m"
+                                                                              : "kg/m^2";
   print_result("body \"{}\": {}{} of {} particles ({}, spacing {})\n", body.name,
                body.shape.inner_radius > 0 ? "hollow " : "", kinds[static_cast<std::size_t>(body.shape.kind)],
                count_text(facts.particles), arrangement_text(body.shape, facts),
@@ -261,7 +263,7 @@ void print_contact(CaseSpec const& spec, int dimension) {
     std::string const speed = moves ? vector_text(rigid.velocity, dimension) + " m/s" : "";
     std::string motion = moves ? ", driven at " + speed : "";
     if (rigid.free)
-      motion = ", free, mass " + quantity_text(rigid.mass, dimension == 2 ? "kg/m" : "kg") +
+      motion = ", free, mass " + quantity_text(rigid.mass, dimension == 2 && !spec.axisymmetric ? "kg/m" : "kg") +
                (moves ? ", starts at " + speed : "");
     else if (rigid.turns())
       motion += ", turning";
@@ -339,7 +341,7 @@ CasePlan plan(CaseOptions const& options) {
 void say_plan(CasePlan const& plan, int ranks) {
   auto const& [spec, particles, facts, cost, warnings, left_out] = plan;
   print_result("{}\n", spec.title);
-  print_result("{} particles in {}D, {} of motion\n", count_text(particles.size()), particles.dimension,
+  print_result("{} particles {}, {} of motion\n", count_text(particles.size()), dimension_text(particles),
                quantity_text(spec.run.end, "s"));
   for (std::size_t b = 0; b < facts.size(); ++b) print_body(spec.bodies[b], facts[b], particles);
   for (RegionSpec const& region : spec.regions) say_region(region, particles);

@@ -69,10 +69,14 @@ void Console::warning(std::string const& text) {
   print_message("warning: {}\n", text);
 }
 
+std::string dimension_text(ParticleSet const& particles) {
+  return particles.axisymmetric ? "axisymmetric" : fmt::format("in {}D", particles.dimension);
+}
+
 std::string start_report(Simulation const& s, std::filesystem::path const& folder) {
   std::string text =
-      fmt::format("{}\n{} in {}D, {} particles, {} thread{}\n", s.spec.title, s.formulation_name, s.particles.dimension,
-                  count_text(s.particles.size()), s.threads, s.threads == 1 ? "" : "s");
+      fmt::format("{}\n{} {}, {} particles, {} thread{}\n", s.spec.title, s.formulation_name,
+                  dimension_text(s.particles), count_text(s.particles.size()), s.threads, s.threads == 1 ? "" : "s");
   for (std::size_t b = 0; b < s.spec.bodies.size() && b < s.particles.bodies.size(); ++b)
     text += body_line(s.particles.bodies[b], s.spec.bodies[b], s.particles.dimension);
   text += fmt::format("  first step {}, end {}\n  results in {}\n",

@@ -40,6 +40,9 @@ class Console : public Listener {
 /// Start time of the program.
 extern WallLimit::Clock::time_point const program_start;
 
+/// "in 3D", "axisymmetric"
+std::string dimension_text(ParticleSet const& particles);
+
 /// A summary of a run before its start, in a few lines.
 std::string start_report(Simulation const& simulation, std::filesystem::path const& folder);
 /// The result of a run.

@@ -267,6 +267,11 @@ def bar(**settings):
     return make
 
 
+def ring(formulation):
+    made = case(body(formulation, box([10, 0], [18, 5])))
+    return made | {"geometry": "axisymmetric"}, made
+
+
 def spinning_column(formulation):
     return case(body(formulation, box([0, 0, 0], [4, 3, 3]), initial_velocity=["0", "-Z", "Y"])), None
 
@@ -276,6 +281,7 @@ FEATURES = {
     "one dimension, uniaxial stress": bar(assumption="uniaxial_stress"),
     "two dimensions, plane strain": lambda f: (plain(f), None),
     "two dimensions, plane stress": setting(assumption="plane_stress"),
+    "axisymmetric": ring,
     "three dimensions": spinning_column,
     "total Lagrangian": description({"nodal": {}, "jst_sph": {}, "adaptle": {"description": "total_lagrangian"}}),
     "updated Lagrangian or Eulerian": description({"taylor_sph": {"configuration": "updated"},

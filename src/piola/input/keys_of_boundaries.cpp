@@ -105,7 +105,8 @@ constexpr std::array rigid_rows{
               "fixed: at rest; driven: as prescribed; free: a rigid body that what it touches moves, not for planes",
               motion_words}},
     RigidKey{{"rigid", "mass", quantity, "", positive, "from density",
-              "free (one of mass and density is required there): mass, in kg; in 2D per length, in kg/m"}},
+              "free (one of mass and density is required there): mass, in kg; in 2D per length, in kg/m (not "
+              "axisymmetric)"}},
     RigidKey{{"rigid", "density", quantity, "kg/m^3", positive, "from mass", "free: density of the whole shape"}},
     RigidKey{
         {"rigid", "inertia", list, "", any_value, "of the homogeneous shape",

@@ -149,9 +149,6 @@ void check_axisymmetry(CaseSpec const& spec, ParticleSet const& particles, Probl
                                                         "it");
   for (CrackSpec const& crack : spec.cracks)
     problems.add(place_of(crack.places, ""), axisymmetric + "and there is a crack (allowed: none) - remove it");
-  for (TieSpec const& tie : spec.ties)
-    problems.add(place_of(tie.places, ""),
-                 axisymmetric + "and there is a tie (allowed: none) - take one body in parts");
 }
 
 }  // namespace piola

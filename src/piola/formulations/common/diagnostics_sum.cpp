@@ -23,6 +23,8 @@ void DiagnosticsSum::add_motion(std::array<double, 3> const& x, std::array<doubl
     of_particle[1 + c] = mass * v[c];
     of_particle[4 + c] = mass * (x[p] * v[q] - x[q] * v[p]);
   }
+  if (axisymmetric)
+    for (std::size_t c = 1; c < 7; ++c) of_particle[c] = c == 2 ? of_particle[c] : 0;
   bodies_.back().motion.add(of_particle);
 }
 

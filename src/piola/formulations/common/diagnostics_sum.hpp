@@ -11,7 +11,8 @@ namespace piola {
 
 /// Accumulates Diagnostics over particles, in any order.
 struct DiagnosticsSum {
-  Diagnostics totals;  ///< except the sums over particles, which finish() adds
+  Diagnostics totals;         ///< except the sums over particles, which finish() adds
+  bool axisymmetric = false;  ///< a full circle has momentum along the axis y alone
   /// Starts a body: later contributions also count for it.
   void begin_body(std::string const& name) { bodies_.push_back({name, {}, {}}); }
   void add_strain_energy(double energy);  ///< [J]

@@ -31,14 +31,21 @@ PIOLA_INLINE_FN Four load_four(double const* p) {
   std::memcpy(&r, p, sizeof r);
   return r;
 }
-/// s p(r) in three vectors, and G.
+/// s p(r) in three vectors, and G; in 2D in two vectors.
+template <int D>
 struct Coefficients {
-  Four c[4];
+  static constexpr int vectors = D == 3 ? 4 : 2;
+  Four c[vectors];
   PIOLA_INLINE_FN Coefficients(Four const& r, double s, double const* G) {
-    c[0] = s * r;
-    c[1] = c[0] * (0.5 * r);
-    c[2] = __builtin_shufflevector(c[0], c[0], 1, 0, 0, 3) * __builtin_shufflevector(r, r, 2, 2, 1, 3);
-    c[3] = load_four(G);
+    if constexpr (D == 3) {
+      c[0] = s * r;
+      c[1] = c[0] * (0.5 * r);
+      c[2] = __builtin_shufflevector(c[0], c[0], 1, 0, 0, 3) * __builtin_shufflevector(r, r, 2, 2, 1, 3);
+      c[3] = load_four(G);
+    } else {
+      c[0] = s * Four{r[0], r[1], 0.5 * (r[0] * r[0]), 0.5 * (r[1] * r[1])};
+      c[1] = Four{s * (r[0] * r[1]), G[0], G[1], 0};
+    }
   }
 };
 #endif
@@ -54,18 +61,19 @@ struct ListSums {
   PIOLA_INLINE_FN void of_motion(Index a, double* rows) const {
     double const* const own = motion_of(a);
 #if PIOLA_HAS_PACKS
-    if constexpr (D == 3) {
+    if constexpr (D > 1) {
+      constexpr int vectors = Coefficients<D>::vectors, apart = D == 3 ? 3 : 4;
       Four const X = load_four(own), x = load_four(own + R::position);
-      Four sum[3][4]{};
+      Four sum[D][vectors]{};
       for (std::int64_t k = table.begin[a]; k < table.begin[a + 1]; ++k) {
         double const* const other = motion_of(table.neighbour[k]);
-        Coefficients const of(load_four(other) - X, table.s[k], table.gradient + 3 * k);
+        Coefficients<D> const of(load_four(other) - X, table.s[k], table.gradient + D * k);
         Four const moved = load_four(other + R::position) - x;
-        for (int i = 0; i < 3; ++i)
-          for (int n = 0; n < 4; ++n) sum[i][n] += moved[i] * of.c[n];
+        for (int i = 0; i < D; ++i)
+          for (int n = 0; n < vectors; ++n) sum[i][n] += moved[i] * of.c[n];
       }
-      for (int i = 0; i < 3; ++i)
-        for (int n = 0; n < 4; ++n) std::memcpy(rows + i * R::width + 3 * n, &sum[i][n], sizeof(Four));
+      for (int i = 0; i < D; ++i)
+        for (int n = 0; n < vectors; ++n) std::memcpy(rows + i * R::width + apart * n, &sum[i][n], sizeof(Four));
       return;
     }
 #endif
@@ -86,19 +94,25 @@ struct ListSums {
     double const* const own = motion_of(a);
     Vec<D> force;
 #if PIOLA_HAS_PACKS
-    if constexpr (D == 3) {
+    if constexpr (D > 1) {
+      constexpr int vectors = Coefficients<D>::vectors, apart = D == 3 ? 3 : 4;
       Four const X = load_four(own);
-      Four sum[3][4]{};
+      Four sum[D][vectors]{};
       for (std::int64_t k = table.begin[a]; k < table.begin[a + 1]; ++k) {
         Index const b = table.neighbour[k];
-        Coefficients const of(X - load_four(motion_of(b)), table.s[k], table.reaction + 3 * k);
+        Coefficients<D> const of(X - load_four(motion_of(b)), table.s[k], table.reaction + D * k);
         double const* const other = stress_of(b);
-        for (int i = 0; i < 3; ++i)
-          for (int n = 0; n < 4; ++n) sum[i][n] += load_four(other + i * R::used + 3 * n) * of.c[n];
+        for (int i = 0; i < D; ++i)
+          for (int n = 0; n < vectors; ++n) sum[i][n] += load_four(other + i * R::used + apart * n) * of.c[n];
       }
-      for (int i = 0; i < 3; ++i) {
-        Four const all = (sum[i][0] + sum[i][1]) + (sum[i][2] + sum[i][3]);
-        force[i] = all[0] + all[1] + all[2];
+      for (int i = 0; i < D; ++i) {
+        if constexpr (D == 3) {
+          Four const all = (sum[i][0] + sum[i][1]) + (sum[i][2] + sum[i][3]);
+          force[i] = all[0] + all[1] + all[2];
+        } else {
+          Four const first = sum[i][0], last = sum[i][1];  // the last value of `last` is that of the next row
+          force[i] = ((first[0] + first[1]) + (first[2] + first[3])) + (last[0] + last[1] + last[2]);
+        }
       }
       return force;
     }

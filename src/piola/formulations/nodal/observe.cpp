@@ -64,6 +64,7 @@ void add_oscillation(NodalBody const& body, LazyZeroArray<double> const& by_slot
 
 void add_diagnostics(NodalBody const& body, NodalDiagnosticsSum& o) {
   o.begin_body(body.body().name);
+  o.axisymmetric = body.set().axisymmetric;
   auto const of_cells = cell_pressures(body), smooth = body.smoothing()(of_cells);
   exec::ReproducibleSums<1> strain;
   for (Index i = body.own().first; i < body.own().last; ++i) {
