@@ -38,8 +38,8 @@ html_show_sourcelink = False
 # The order of the pages: (heading, pages); what a name with * finds is sorted. A page that nothing names is a warning.
 CONTENTS = {
     "docs/README": [
-        ("Use", ["docs/user/first-hour", "docs/user/gallery", "docs/user/features", "docs/user/formulations",
-                 "docs/user/case-file", "docs/user/*", "cases/README"]),
+        ("Use", ["docs/user/first-hour", "docs/user/axisymmetric-impact", "docs/user/gallery", "docs/user/features",
+                 "docs/user/formulations", "docs/user/case-file", "docs/user/*", "cases/README"]),
         ("Theory", ["docs/theory/README"]),
         ("Develop", ["CONTRIBUTING", "docs/developer/architecture", "docs/developer/*", "docs/decisions/README",
                      "bench/README"]),

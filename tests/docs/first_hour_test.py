@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Types docs/user/first-hour.md from top to bottom: writes its files, runs its commands and its script in an empty
-folder, and looks for what the page shows of the answers. Programs other than piola and touch are left out."""
+"""Types docs/user/first-hour.md and axisymmetric-impact.md from top to bottom: writes their files, runs their commands
+and scripts in an empty folder, and looks for what the pages show of the answers. Programs other than piola and touch are
+left out."""
 import csv
 import os
 import re
@@ -14,6 +15,7 @@ from pathlib import Path
 ROOT = Path(os.environ["PIOLA_SOURCE_DIR"])
 PROGRAM = os.environ.get("PIOLA_PROGRAM", "")
 PAGE = ROOT / "docs/user/first-hour.md"
+IMPACT = ROOT / "docs/user/axisymmetric-impact.md"
 # Commands that are meant to fail, and how.
 STATUS = {"piola check beam.toml, empty": 2}
 # What the machine decides: seconds, memory, threads.
@@ -78,14 +80,15 @@ class Reader:
                 (self.folder / name).write_text(block)
             elif kind == "python":
                 self.run([sys.executable, "-c", block], "the script")
-            else:
+            elif kind == "line":
                 self.line(block)
 
 
 def expected():
     """What a reader should find in the end."""
     return ["beam-results/energies.svg", "tip.svg", "compared.pdf", "stiffness.svg", "bounce-results/summary.json",
-            *(f"{name}-results/pictures" for name in ("beam", "bounce")), "stiffness-study/study.csv"]
+            *(f"{name}-results/pictures" for name in ("beam", "bounce", "rod")), "stiffness-study/study.csv",
+            "rod-converge/convergence.csv"]
 
 
 def main():
@@ -95,6 +98,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         reader = Reader(Path(name))
         reader.follow(PAGE.read_text())
+        reader.follow(IMPACT.read_text())
         reader.wrong += [f"{file} is missing" for file in expected() if not (reader.folder / file).exists()]
         told = float(re.search(r"the tip ([\d.]+) cm down", PAGE.read_text())[1])
         with open(reader.folder / "beam-rest/history.csv", encoding="utf-8") as table:

@@ -240,7 +240,8 @@ GradientQuality FacetFluxes<D>::measure(SurfaceIntegrals<D> const& surface) cons
   GradientQuality found;
   for (Index i = fits_.own().first; i < std::min(fits_.own().last, static_cast<Index>(body_.particles)); ++i) {
     auto const b = static_cast<std::size_t>(i);
-    for (std::size_t J = 0; J < D; ++J) comm::max_or_nan(std::abs(left[b * D + J]), found.divergence);
+    double const face = body_.sections.empty() ? 1 : std::max(1.0, std::abs(body_.X[b][0]));  // of rings
+    for (std::size_t J = 0; J < D; ++J) comm::max_or_nan(std::abs(left[b * D + J]) / face, found.divergence);
     comm::max_or_nan(rows[b], found.rows);
     comm::max_or_nan(steepest[b], found.steepest);
   }
