@@ -34,7 +34,7 @@ constexpr std::array support_rows{
     SupportKey{
         {"support", "patch", text, "", any_value, "by where", "the particles along a patch of a solid's surface"}},
     SupportKey{
-        {"support", "hold", word, "", any_value, "surface with nodal, else particles",
+        {"support", "hold", word, "", any_value, "surface with nodal, particles else and if axisymmetric",
          "patch: what is held; surface: the patch itself, second order; particles: those along it, half a spacing "
          "inside, first order",
          hold_words}},

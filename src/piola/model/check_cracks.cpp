@@ -21,7 +21,9 @@ std::optional<FormulationInfo> formulation_of(CaseSpec const& spec, std::string 
 bool holds_surface(CaseSpec const& spec, SupportSpec const& support) {
   auto const info = formulation_of(spec, support.body);
   if (!support.patch || !info || !info->surface_supports) return false;
-  return support.hold.value_or(SupportSpec::Hold::surface) == SupportSpec::Hold::surface;
+  // Surfaces cannot be held together with mirror planes, which the axis is.
+  auto const otherwise = spec.axisymmetric ? SupportSpec::Hold::particles : SupportSpec::Hold::surface;
+  return support.hold.value_or(otherwise) == SupportSpec::Hold::surface;
 }
 
 void open_cracks(CaseSpec const& spec, ParticleSet& particles, Problems& problems) {

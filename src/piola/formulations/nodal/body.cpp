@@ -102,8 +102,8 @@ void NodalBody::make_reference(Assembly const& assembly, Backend const& backend)
                                       comm::is_parallel() ? std::optional(state_.slots) : std::nullopt});
   if (!images_.empty() && !reference_.held.empty())
     throw InputError(fmt::format(
-        "body '{}': a support that holds the surface of a patch does not go together with mirror planes (allowed: "
-        "hold = \"particles\") - change hold",
+        "body '{}': a support that holds the surface of a patch does not go together with mirror planes, of which the "
+        "axis of axisymmetric bodies is one (allowed: hold = \"particles\") - change hold",
         body_.name));
   images_.keep(reference_.images);
 }
