@@ -24,7 +24,8 @@ double size_of(ShapeSpec const& shape) {
 }
 
 void say_volume(ShapeSpec const& shape) {
-  print_result("  volume {}", quantity_text(shape.volume, shape.dimension == 2 ? "m^2" : "m^3"));
+  print_result("  {} {}", shape.axisymmetric ? "section" : "volume",
+               quantity_text(shape.volume, shape.dimension == 2 ? "m^2" : "m^3"));
   if (shape.arrangement == ShapeSpec::Arrangement::packed) {
     SolidParticles const& particles = SolidParticles::of(shape);
     geometry::PackingQuality const q =
