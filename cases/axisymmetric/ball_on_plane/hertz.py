@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Impact of an elastic ball on a rigid plane by Hertz: K. L. Johnson, Contact Mechanics (1985), section 11.4.
 
-Usage: hertz.py RADIUS DENSITY YOUNGS_MODULUS POISSONS_RATIO SPEED [--balls]     all in SI; --balls: two equal balls at SPEED each
-Prints the largest force, the time of contact, the largest approach and the largest radius of contact.
+Usage: hertz.py RADIUS DENSITY YOUNGS_MODULUS POISSONS_RATIO SPEED [--balls]
+All in SI; --balls: two equal balls, each with SPEED. Prints the largest force, the time of contact, the
+largest approach and the largest radius of contact.
 """
 import math
 import sys
