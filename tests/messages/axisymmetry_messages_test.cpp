@@ -63,6 +63,11 @@ TEST(AxisymmetryMessages, MotionAndLoadsAcrossTheAxis) {
   expect_answer({.more = "[[mirror]]\nbody = \"bar\"\nface = \"+x\"\n"}, {"mirror", "normal to the radius", "remove"});
 }
 
+TEST(AxisymmetryMessages, ProbesThatTurnAboutTheAxis) {
+  expect_answer({.more = "[[probe]]\nname = \"turn\"\nbody = \"bar\"\nkind = \"twist\"\naxis = \"z\"\n"},
+                {"\"turn\"", "around the axis", "point"});
+}
+
 TEST(AxisymmetryMessages, RigidShapesThatAreNoBodiesOfRevolution) {
   auto const rigid = [](std::string const& shape) {
     return Sample{.more = "[[rigid]]\nname = \"r\"\n" + shape + "\n"};

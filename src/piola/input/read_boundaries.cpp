@@ -64,6 +64,7 @@ bool has_face(ShapeSpec const& shape, Face const& face) {
 
 /// The faces of a body that tractions and pressures may act on.
 std::string loadable_faces(ShapeSpec const& shape) {
+  if (shape.kind == ShapeSpec::Kind::solid) return "none of packed shapes, which have patches: patch = \"NAME\"";
   std::string text;
   for (auto const part : {Face::Part::flat, Face::Part::outer, Face::Part::inner})
     for (int axis = 0; axis < (part == Face::Part::flat ? 3 : 1); ++axis)

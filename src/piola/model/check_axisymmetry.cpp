@@ -147,6 +147,12 @@ void check_axisymmetry(CaseSpec const& spec, ParticleSet const& particles, Probl
                                                         "and a mirror is normal to the radius (allowed: "
                                                         "normal to y; the axis is one by itself) - remove "
                                                         "it");
+  for (ProbeSpec const& probe : spec.probes)
+    if (probe.kind == ProbeKind::twist)
+      problems.add(place_of(probe.places, "kind"),
+                   axisymmetric + "and probe " + in_quotes(probe.name) +
+                       " looks around the axis (allowed: the other kinds) - take point, "
+                       "average or extent");
   for (CrackSpec const& crack : spec.cracks)
     problems.add(place_of(crack.places, ""), axisymmetric + "and there is a crack (allowed: none) - remove it");
 }

@@ -282,6 +282,16 @@ TEST(NodalAxisymmetry, APressureThatFollowsHoldsASwollenTubeInBalance) {
   }
 }
 
+TEST(NodalAxisymmetry, AHoleThatClosesIsAFailure) {
+  ShapeSpec const shape = section(0.02, 1, Placement::on_boundary);
+  Assembly a = ring_body(shape);
+  give_velocity(a, [](Point const&) { return Point{-80, 0, 0}; });
+  auto const f = make_formulation(a);
+  for (int k = 0; k < 400 && !f->failure(); ++k) f->step(0, f->stable_time_step());
+  ASSERT_TRUE(f->failure().has_value());
+  EXPECT_NE(f->failure()->what.find("behind the axis"), std::string::npos) << f->failure()->what;
+}
+
 /// Far from the axis a ring is a body in plane strain.
 TEST(NodalAxisymmetry, ARingFarFromTheAxisMovesAsInPlaneStrain) {
   constexpr double far = 1e6;

@@ -174,6 +174,7 @@ int NodalBody::step(Backend const& backend, double time, double dt, int halvings
   boundary_->begin_step(state_, time, dt);
   state_.constants.least_share = halvings < most_halvings ? least_share : 0;
   backend.step(state_, dt);
+  if (state_.has.axisymmetric) record_behind_axis();
   agree_on_step(backend.largest_change(state_));
   if (!failed() || halvings == most_halvings) {
     boundary_->end_step(state_);
@@ -183,6 +184,13 @@ int NodalBody::step(Backend const& backend, double time, double dt, int halvings
   failure_.clear();
   int const first = step(backend, time, 0.5 * dt, halvings + 1);
   return 1 + first + (failed() ? 0 : step(backend, time + 0.5 * dt, 0.5 * dt, halvings + 1));
+}
+
+/// A hole of the body has closed, or the step was too large.
+void NodalBody::record_behind_axis() {
+  constexpr double rounding = 1e-6;  // spacings
+  for (Index i = own().first; i < own().last; ++i)
+    if (value(state_.x, i) < -rounding * body_.spacing[0]) exec::record(&failure_, i, behind_axis);
 }
 
 /// All ranks have the first failure and the largest change of a strain.

@@ -20,6 +20,9 @@ namespace piola::nodal {
 /// One body of a nodal run: owns its memory, passes its state to the loops, is addressed in Id order.
 class NodalBody {
  public:
+  /// Code of a FailureSlot: a particle of an axisymmetric body has a negative radius.
+  static constexpr int behind_axis = 3;
+
   /// Keeps a reference to `set`, which must outlive the body. Throws InputError (too few particles across; a body
   /// without an outline). Collective: each rank holds its local particles and their ghosts.
   NodalBody(Assembly const& assembly, ParticleSet const& set, std::size_t body, Options const& options,
@@ -100,6 +103,7 @@ class NodalBody {
   void fill(Assembly const& assembly, Backend const& backend);
   void make_boundary(Assembly const& assembly, std::size_t body);
   void make_pressure(Backend const& backend);
+  void record_behind_axis();
   void agree_on_step(double change);
   bool failed() const { return failure_.index < order_.particles; }
 

@@ -189,6 +189,7 @@ void Solver::describe(std::size_t k, FailureSlot const& slot, Failure& f) const 
   if (!comm::is_parallel()) update_output_fields(body);
   double const least = NodalBody::value(body.state().cell, slot.index, 2);
   f.what = slot.code == ImplicitPressure::not_converged ? "is in a body whose implicit pressure does not converge"
+           : slot.code == NodalBody::behind_axis        ? "is behind the axis (a hole closes?)"
            : least <= 0                                 ? "is inverted"
                                                         : "has a deformation that is not a number";
   f.values = {{"least det F in its cell", least},
