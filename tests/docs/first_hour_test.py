@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Types docs/user/first-hour.md and axisymmetric-impact.md from top to bottom: writes their files, runs their commands
-and scripts in an empty folder, and looks for what the pages show of the answers. Programs other than piola and touch are
-left out."""
+and scripts in an empty folder, and looks for what the pages show of the answers. Programs other than piola and touch
+are left out."""
 import csv
 import os
 import re
