@@ -160,11 +160,12 @@ TEST(RevolvedSkin, OfRigidShapesIsClosed) {
 
 TEST(RevolvedOutline, HasTheEdgesOfACylinderWithoutItsAxis) {
   Section const s(cylinder(Placement::cell_centred));
-  auto const plane = revolved_outline(s.mesh, 0, {0, 0, 1});
+  Projection const from_z{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  auto const plane = revolved_outline(s.mesh, 0, from_z);
   ASSERT_EQ(plane.size(), 2U);
   for (Polyline const& line : plane)
     for (std::size_t k = 0; k + 1 < line.size(); ++k) EXPECT_FALSE(line[k][0] == 0 && line[k + 1][0] == 0);
-  auto const whole = revolved_outline(s.mesh, 360, {0, 0, 1});
+  auto const whole = revolved_outline(s.mesh, 360, from_z);
   EXPECT_EQ(whole.size(), 4U);  // two circles, and what is seen at the left and the right
 }
 

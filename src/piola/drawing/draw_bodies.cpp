@@ -113,7 +113,7 @@ std::vector<float> outlines(PictureData const& data, Appearance const& appearanc
     coverage.resize(like.depth.size(), 0);
     DashedLines const dashed{project, fine};
     if (data.swept) {
-      dashed.draw(revolved_outline(mesh, *data.swept, project.towards), like.width, like.height, coverage);
+      dashed.draw(revolved_outline(mesh, *data.swept, project), like.width, like.height, coverage);
       continue;
     }
     dashed.draw(mesh.lines, like.width, like.height, coverage);
@@ -222,6 +222,7 @@ void draw_shapes(PictureData const& data, Projection const& project, SceneArea c
   if (data.swept && *data.swept > 0) {
     Surfaces shapes = swept_shapes(data, project, fine);
     if (project.eye.near()) move_to_where_seen(shapes, project, fine);
+    for (Vertex& vertex : shapes.vertices) vertex.depth -= 1;  // cut faces of bodies lie in the same planes
     return rasterise(shapes, tools);
   }
   Stage const stage{data.stage_low, data.stage_high};

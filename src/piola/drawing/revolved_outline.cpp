@@ -62,7 +62,17 @@ class SweptLine {
     for (std::size_t j = 0; j + 1 < line.size(); ++j) add_meridians(j);
   }
   std::vector<Polyline> const& sharp() const { return sharp_; }
-  std::vector<Polyline> round(Point3 const& towards_viewer) const { return silhouette(mesh_, towards_viewer); }
+  /// In perspective the viewer is in another direction at each edge.
+  std::vector<Polyline> round(Projection const& project) const {
+    if (!project.eye.near()) return silhouette(mesh_, project.towards);
+    ReferenceMesh seen = mesh_;
+    Point3 const eye = plus(project.eye.axis, project.eye.distance, project.towards);
+    for (RoundEdge& edge : seen.round) {
+      Point3 const away = minus(eye, seen.X[static_cast<std::size_t>(edge.ends[0])]);
+      for (Point3& n : edge.normal) n = plus({}, dot(n, unit(away)), project.towards);
+    }
+    return silhouette(seen, project.towards);
+  }
 
  private:
   Index at(std::size_t angle, std::size_t j) const { return static_cast<Index>(angle * line_.size() + j); }
@@ -103,7 +113,7 @@ class SweptLine {
 
 }  // namespace
 
-std::vector<Polyline> revolved_outline(ReferenceMesh const& mesh, double degrees, Point3 const& towards_viewer) {
+std::vector<Polyline> revolved_outline(ReferenceMesh const& mesh, double degrees, Projection const& project) {
   PIOLA_EXPECTS(degrees >= 0 && degrees <= 360);
   std::vector<Polyline> all;
   for (Polyline const& line : mesh.lines)
@@ -114,7 +124,7 @@ std::vector<Polyline> revolved_outline(ReferenceMesh const& mesh, double degrees
       if (degrees == 0) continue;
       SweptLine const swept(part, degrees);
       all.insert(all.end(), swept.sharp().begin(), swept.sharp().end());
-      for (Polyline const& seen : swept.round(towards_viewer)) all.push_back(seen);
+      for (Polyline const& seen : swept.round(project)) all.push_back(seen);
     }
   return all;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/drawing/projection.hpp"
 #include "piola/drawing/reference_mesh.hpp"
 #include <vector>
 
@@ -7,7 +8,7 @@
 namespace piola {
 
 /// Returns the edges of the reference shape of a section with its mirror image (angle 0) or of the swept shape, and
-/// what is round in it as a viewer in that direction sees it [m].
-std::vector<Polyline> revolved_outline(ReferenceMesh const& mesh, double degrees, Point3 const& towards_viewer);
+/// what is round in it as the viewer of a projection sees it [m].
+std::vector<Polyline> revolved_outline(ReferenceMesh const& mesh, double degrees, Projection const& project);
 
 }  // namespace piola

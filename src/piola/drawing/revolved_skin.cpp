@@ -18,22 +18,33 @@ struct ProfileEdge {
 
 bool on_axis(Skin const& skin, Index corner) { return skin.place[static_cast<std::size_t>(corner)][0] == 0; }
 
-/// The outline of a section without its sides on the axis. Normals are as long as the sides.
-std::vector<ProfileEdge> sides_of(Skin const& section) {
-  std::map<std::array<Index, 2>, std::pair<int, Index>> sides;  // how many triangles, and the third corner of one
+/// A side of a triangle and the corner opposite to it.
+struct TriangleSide {
+  std::array<Index, 2> ends{};
+  Index third = 0;
+};
+
+std::vector<TriangleSide> all_sides(Skin const& section) {
+  std::vector<TriangleSide> sides;
   for (SkinFacet const& facet : section.facets)
     for (std::size_t c = 0; c < 3; ++c) {
-      std::array<Index, 2> ends{facet.corner[c], facet.corner[(c + 1) % 3]};
-      std::sort(ends.begin(), ends.end());
-      auto& [count, third] = sides[ends];
-      ++count;
-      third = facet.corner[(c + 2) % 3];
+      TriangleSide side{{facet.corner[c], facet.corner[(c + 1) % 3]}, facet.corner[(c + 2) % 3]};
+      std::sort(side.ends.begin(), side.ends.end());
+      sides.push_back(side);
     }
+  std::stable_sort(sides.begin(), sides.end(), [](auto const& a, auto const& b) { return a.ends < b.ends; });
+  return sides;
+}
+
+/// The outline of a section without its sides on the axis. Normals are as long as the sides.
+std::vector<ProfileEdge> sides_of(Skin const& section) {
+  auto const sides = all_sides(section);
+  auto const at = [&](Index c) { return section.place[static_cast<std::size_t>(c)]; };
   std::vector<ProfileEdge> profile;
-  for (auto const& [ends, known] : sides) {
-    auto const& [count, third] = known;
-    if (count > 1 || (on_axis(section, ends[0]) && on_axis(section, ends[1]))) continue;
-    auto const at = [&](Index c) { return section.place[static_cast<std::size_t>(c)]; };
+  for (std::size_t k = 0, next = 0; k < sides.size(); k = next) {
+    auto const& [ends, third] = sides[k];
+    for (next = k + 1; next < sides.size() && sides[next].ends == ends;) ++next;
+    if (next > k + 1 || (on_axis(section, ends[0]) && on_axis(section, ends[1]))) continue;
     Point3 const along = minus(at(ends[1]), at(ends[0]));
     Point3 normal{along[1], -along[0], 0};
     if (dot(normal, minus(at(third), at(ends[0]))) > 0) normal = {-normal[0], -normal[1], 0};
