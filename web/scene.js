@@ -11,15 +11,13 @@ class Scene {
     if (!gl) throw new Error("no WebGL 2");
     Object.assign(this, { canvas, about, gl, view, bodies, numbers });
     this.flat = about.dimension < 3;
-    this.middle = about.low.map((x, c) => x + (about.step[c] * (about.missing - 1)) / 2);
-    const edges = about.low.map((x, c) => 2 * (this.middle[c] - x));
-    const largest = Math.max(...about.bodies.map((body) => body.radius), 0);
-    this.size = Math.hypot(...edges) + 2 * largest || 1;
+    this.setBox(about);
     this.balls = new Balls(gl, bodies, about.stretched);
     this.surface = about.facets ? new Surface(gl, this.balls, bodies) : null;
     this.shown = about.bodies.map(() => true);
     this.tools = programOf(gl, shapeVertex, shapeFragment);
-    this.stage = about.stage.map((p) => this.inScene(p));
+    const [first, last] = about.stage;
+    this.stage = [this.mirrored ? [-last[0], first[1], first[2]] : first, last].map((p) => this.inScene(p));
     this.shapes = about.shapes.map((shape) => new Shape(gl, this.tools, this.trianglesOf(shape), false));
     this.outline = new Shape(gl, this.tools, boxLines(...this.stage), true);
     this.showOutline = false;
@@ -28,6 +26,18 @@ class Scene {
     this.marked = -1;
     this.dark = false;
     this.setBodies();
+  }
+
+  /** The box of all frames. Half sections of axisymmetric bodies (x is the radius) are drawn on both sides. */
+  setBox(about) {
+    this.mirrored = Boolean(about.mirrored);
+    const ends = about.low.map((x, c) => [x, x + about.step[c] * (about.missing - 1)]);
+    const radius = Math.max(...ends[0].map(Math.abs));
+    if (this.mirrored) ends[0] = [-radius, radius];
+    const largest = Math.max(...about.bodies.map((body) => body.radius), 0);
+    this.middle = ends.map(([low, high]) => (low + high) / 2);
+    this.half = ends.map(([low, high]) => (high - low) / 2);
+    this.size = Math.hypot(...this.half.map((x) => 2 * x)) + 2 * largest || 1;
   }
 
   /** Floats near zero are exact enough: the scene counts from the middle, in units of its size. */
@@ -76,7 +86,7 @@ class Scene {
   fittingZoom() {
     const { axes } = this.camera(), { width, height } = this.canvas, aspect = width / Math.max(height, 1);
     const radius = Math.max(...this.about.bodies.map((body) => body.radius), 0);
-    const half = this.inScene(this.about.low).map(Math.abs);
+    const half = this.half.map((x) => x / this.size);
     const ends = this.endedShapes();
     const reach = (axis) => {
       const own = half.reduce((sum, h, c) => sum + h * Math.abs(axis[c]), radius / this.size);
@@ -130,19 +140,27 @@ class Scene {
     };
   }
 
+  /** The camera, and for half sections the one that sees their mirror image. */
+  cameras(camera) {
+    if (!this.mirrored) return [camera];
+    const other = ([x, y, z]) => [-x, y, z], { right, up, towards } = camera.axes;
+    const axes = { right: other(right), up: other(up), towards: other(towards) };
+    return [camera, { ...camera, axes, target: other(camera.target) }];
+  }
+
   draw() {
-    const gl = this.gl, camera = this.camera();
+    const gl = this.gl, camera = this.camera(), cameras = this.cameras(camera);
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);
     gl.clearColor(...(this.dark ? [0.09, 0.1, 0.12, 1] : [1, 1, 1, 1]));
     gl.enable(gl.DEPTH_TEST);
     gl.depthMask(true);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     if (this.flat) gl.disable(gl.DEPTH_TEST);  // in a plane shapes lie behind all particles
-    if (this.showShapes) this.drawShapes(camera);
+    if (this.showShapes) cameras.forEach((one) => this.drawShapes(one));
     gl.enable(gl.DEPTH_TEST);
     if (this.flat) gl.clear(gl.DEPTH_BUFFER_BIT);
-    if (this.frame) this.balls.draw(camera, this.ballsNow());
-    if (this.frame && this.surface) this.surface.draw(camera, this.flat);
+    if (this.frame) cameras.forEach((one) => this.balls.draw(one, this.ballsNow()));
+    if (this.frame && this.surface) cameras.forEach((one) => this.surface.draw(one, this.flat));
     const none = { centre: [0, 0, 0], edges: [1, 0, 0, 0, 1, 0, 0, 0, 1] };
     if (this.showOutline) this.outline.draw(camera, none, this.dark ? [0.7, 0.7, 0.7, 1] : [0.3, 0.3, 0.3, 1], 0);
   }
@@ -176,10 +194,12 @@ class Scene {
     const camera = this.camera(), { right, up, towards } = camera.axes, { low, cell, missing, cut } = this.ballsNow();
     const radii = this.about.bodies.map((body) => body.radius / this.size), [x, y, z] = this.frame.x;
     let found = -1, nearest = -Infinity;
-    for (let i = 0; i < x.length; ++i) {
+    for (let k = 0; k < x.length * (this.mirrored ? 2 : 1); ++k) {
+      const i = k % x.length;
       if (x[i] === missing || y[i] === missing || z[i] === missing || !this.shown[this.bodies[i]]) continue;
       const at = [low[0] + x[i] * cell[0], low[1] + y[i] * cell[1], low[2] + z[i] * cell[2]];
       if (dot(cut, at) > cut[3]) continue;
+      if (k >= x.length) at[0] = -at[0];
       const p = at.map((v, c) => v - camera.target[c]), depth = dot(p, towards);
       const scale = camera.eye ? camera.eye / Math.max(camera.eye - depth, 1e-9) : 1;
       const dx = sx * camera.halfHeight * camera.aspect - dot(p, right) * scale;

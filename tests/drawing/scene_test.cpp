@@ -343,5 +343,53 @@ TEST(Scene, HasFinerEdgesInHighQuality) {
   EXPECT_LT(differ, static_cast<int>(high.rgb.size()) / 100) << "it is the same picture";
 }
 
+/// A half section of 1 x 2 beside the axis, in the middle of a picture.
+struct SectionStand : Stand {
+  std::optional<double> swept = 0;
+  explicit SectionStand(double low = 0) : Stand(3, 2) {
+    ShapeSpec shape = testing::drawn_box(3, ShapeSpec::Placement::cell_centred, 2);
+    shape.min[0] = low;
+    shape.max[0] = low + 1;
+    reset(shape);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = x[i][0] + x[i][1];
+  }
+  Image image() const {
+    PictureData d = data();
+    d.swept = swept;
+    d.dimension = swept == 0.0 ? 2 : 3;
+    Projection const project{view.right(), view.up(), view.towards_viewer(), 60, width / 2.0, 170};
+    return draw_bodies(d, appearance, project, {width, height, 0, width}, ColourMap(0, 3), white);
+  }
+};
+
+TEST(Scene, OfASectionIsEqualOnBothSidesOfTheAxis) {
+  for (auto const as : {Representation::skin, Representation::balls})
+    for (double const low : {0.0, 0.7}) {
+      SectionStand stand(low);
+      stand.appearance.as = {as};
+      Image const image = stand.image();
+      EXPECT_GT(pixels(image), 2 * 60 * 60 * 0.9);
+      int most = 0;
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width / 2; ++x)
+          for (std::size_t k = 0; k < 3; ++k)
+            most = std::max(most, std::abs(image.at(x, y)[k] - image.at(width - 1 - x, y)[k]));
+      EXPECT_LE(most, as == Representation::skin ? 0 : 6);  // directions of light from around are no mirror images
+    }
+}
+
+TEST(Scene, OfASweptSectionShowsTheFieldOnItsCutFaces) {
+  SectionStand stand;
+  stand.view = {0, 0};
+  stand.swept = 180;  // behind the section
+  Image const half = stand.image();
+  stand.swept = 360;
+  Image const whole = stand.image();
+  EXPECT_EQ(pixels(half), pixels(whole));
+  EXPECT_NE(half.at(width / 2 + 3, 150), half.at(width / 2 + 50, 150));              // the field grows with the radius
+  Colour const a = whole.at(width / 2 + 3, 150), b = whole.at(width / 2 + 20, 150);  // that of the outer face
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], 12);
+}
+
 }  // namespace
 }  // namespace piola

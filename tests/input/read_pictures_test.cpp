@@ -71,5 +71,42 @@ TEST(ReadPictures, TakesMomentsAndWhatIsDrawnBesideBodies) {
     EXPECT_NE(text.find(std::string("output.pictures.") + key), std::string::npos) << text;
 }
 
+std::string rings(std::string const& keys) {
+  return R"(geometry = "axisymmetric"
+title = "Ring"
+[run]
+end = "1 ms"
+[[body]]
+name = "ring"
+shape = { box = { min = [1, 0], max = [2, 1] }, spacing = 0.25 }
+material = { law = "neo_hookean", density = "1100 kg/m^3", youngs_modulus = "17 MPa", poissons_ratio = 0.3 }
+formulation = { name = "nodal" }
+[output.pictures]
+every = 1
+)" + keys +
+         "\n";
+}
+
+TEST(ReadPictures, TakesTheAngleThroughWhichSectionsAreSwept) {
+  EXPECT_EQ(read_case_text(rings(""), "case.toml").output.pictures.revolve, 0);
+  PicturesSpec const all =
+      read_case_text(rings("[[output.pictures.panel]]\nrevolve = 270\nground = true"), "case.toml").output.pictures;
+  EXPECT_EQ(all.revolve, 0);
+  EXPECT_EQ(all.panels.front().revolve, 270);
+}
+
+TEST(ReadPictures, RefusesToSweepWhatIsNoSection) {
+  auto const names = [](std::string const& text, std::string const& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  names(refusal_of("revolve = 270"), "output.pictures.revolve is 270");
+  names(refusal_of("revolve = 270"), "axisymmetric");
+  for (std::string const wrong : {"0", "-90", "361"})
+    names(test::message_of(rings("revolve = " + wrong)), "output.pictures.revolve is " + wrong);
+  names(test::message_of(rings("[[output.pictures.panel]]\nrevolve = 400")), "output.pictures.panel.revolve is 400");
+  names(test::message_of(rings("revolve = 90\ncut = { point = [0, 0], normal = [0, 1] }")), "revolve is 90");
+  names(test::message_of(rings("ground = true")), "output.pictures.ground is true");
+}
+
 }  // namespace
 }  // namespace piola

@@ -67,6 +67,17 @@ TEST(Frames, AreListedInTheIndex) {
   EXPECT_EQ(series["files"][2]["time"], 1.0);
 }
 
+TEST(Frames, SayThatBodiesAreAxisymmetric) {
+  TemporaryFolder const folder;
+  ParticleSet set = testing::make_plate(3);
+  FrameWriter plane(folder / "plane", {}, true), rings(folder / "rings", {}, true);
+  write_frames(plane, set, {0});
+  set.axisymmetric = true;
+  write_frames(rings, set, {0});
+  EXPECT_FALSE(FrameReader(folder / "plane/frames/000000.hdf").axisymmetric());
+  EXPECT_TRUE(FrameReader(folder / "rings/frames/000000.hdf").axisymmetric());
+}
+
 TEST(Frames, HoldOnlyTheFieldsAskedFor) {
   TemporaryFolder const folder;
   FrameWriter writer(folder.path(), {"Velocity"}, true);

@@ -298,6 +298,48 @@ class Page(unittest.TestCase):
             self.assertLess(abs(min(places)), step)
             self.assertLess(abs(max(places) - length), step)
 
+    def test_half_sections_are_seen_on_both_sides_of_the_axis(self):
+        (self.folder / "ring.toml").write_text("""
+geometry = "axisymmetric"
+title = "Ring"
+[run]
+end = "1 ms"
+[[body]]
+name = "ring"
+shape = { box = { min = ["1 m", "0 m"], max = ["2 m", "1 m"] }, spacing = "0.25 m" }
+material = { law = "neo_hookean", density = "1100 kg/m^3", youngs_modulus = "17 MPa", poissons_ratio = 0.3 }
+formulation = { name = "nodal" }
+[output.frames]
+every = "1 ms"
+""", encoding="utf-8")
+        folder = self.folder / "ring"
+        program("run", self.folder / "ring.toml", "--quiet", "--out", folder)
+        (folder / "case.toml").unlink()  # frames know
+        program("report", folder)
+        frames = json.loads(Elements((folder / "report.html").read_text(encoding="utf-8")).data["frames"])
+        self.assertTrue(frames["mirrored"])
+        self.assertNotIn("mirrored", self.frames)
+        self.need_node()
+        script = "".join((SOURCE / "web" / name).read_text(encoding="utf-8") for name in ("view.js", "scene.js")) + """
+const about = JSON.parse(require("fs").readFileSync(0, "utf8")), scene = Object.create(Scene.prototype);
+Object.assign(scene, { about, canvas: { width: 800, height: 600 }, view: new View("y", 0, 0) });
+scene.setBox(about);
+scene.view.target = [0.3, 0.2, 0.1];
+const [camera, other] = scene.cameras(scene.camera());
+const seen = (one, p) => {
+  const d = scene.inScene(p).map((x, c) => x - one.target[c]);
+  return [one.axes.right, one.axes.up, one.axes.towards].map((axis) => dot(axis, d));
+};
+console.log(JSON.stringify([scene.middle, scene.half, seen(other, [1.5, 0.5, 0]), seen(camera, [-1.5, 0.5, 0])]));
+"""
+        done = subprocess.run(["node", "-e", script], input=json.dumps(frames), capture_output=True, text=True,
+                              check=True)
+        middle, half, image, expected = json.loads(done.stdout)
+        self.assertEqual(middle[0], 0)
+        self.assertAlmostEqual(half[0], 2, places=3)
+        for a, b in zip(image, expected):
+            self.assertAlmostEqual(a, b)
+
     def test_surfaces_need_the_case(self):
         folder = self.folder / "without case"
         shutil.copytree(self.run_folder, folder)

@@ -3,6 +3,8 @@
 #include "piola/base/contracts.hpp"
 #include "piola/drawing/feature_lines.hpp"
 #include "piola/drawing/ground_shadow.hpp"
+#include "piola/drawing/revolved_outline.hpp"
+#include "piola/drawing/revolved_shapes.hpp"
 #include "piola/drawing/rigid_picture.hpp"
 #include "piola/drawing/scene.hpp"
 #include "piola/drawing/shade.hpp"
@@ -78,7 +80,28 @@ bool has_moved(ReferenceMesh const& mesh, std::span<Point3 const> x) {
   return false;
 }
 
-/// The outlines of the bodies that have moved.
+/// The axis of a section, a little longer than the bodies are.
+Polyline axis_of_section(PictureData const& data) {
+  constexpr double longer = 0.08;
+  double low = std::min(data.stage_low[1], data.stage_high[1]), high = std::max(data.stage_low[1], data.stage_high[1]);
+  for (Point3 const& p : data.points) {
+    if (!std::isfinite(p[1])) continue;
+    low = std::min(low, p[1]);
+    high = std::max(high, p[1]);
+  }
+  double const more = longer * (high - low);
+  return {{0, low - more, 0}, {0, high + more, 0}};
+}
+
+/// A thin line of long dashes.
+void draw_axis(PictureData const& data, Projection const& project, SurfaceBuffers const& like, int fine,
+               std::vector<float>& coverage) {
+  coverage.resize(like.depth.size(), 0);
+  DashedLines const line{.project = project, .fine = fine, .width = 1, .dash = 16, .gap = 5};
+  line.draw({axis_of_section(data)}, like.width, like.height, coverage);
+}
+
+/// The outlines of the bodies that have moved, and the axis of a section.
 std::vector<float> outlines(PictureData const& data, Appearance const& appearance, Projection const& project,
                             SurfaceBuffers const& like, int fine) {
   std::vector<float> coverage;
@@ -89,9 +112,14 @@ std::vector<float> outlines(PictureData const& data, Appearance const& appearanc
     if (!has_moved(mesh, data.points)) continue;
     coverage.resize(like.depth.size(), 0);
     DashedLines const dashed{project, fine};
+    if (data.swept) {
+      dashed.draw(revolved_outline(mesh, *data.swept, project), like.width, like.height, coverage);
+      continue;
+    }
     dashed.draw(mesh.lines, like.width, like.height, coverage);
     dashed.draw(silhouette(mesh, project.towards), like.width, like.height, coverage);
   }
+  if (data.swept == 0.0) draw_axis(data, project, like, fine, coverage);
   return coverage;
 }
 
@@ -146,10 +174,12 @@ class Covered {
   std::array<double, 2> low_{1e300, 1e300}, high_{-1e300, -1e300};
 };
 
-/// Where there is something to draw; all of it where a ground, rigid shapes or perspective may reach anywhere.
+/// Where there is something to draw; all of it where a ground, rigid shapes, sections or perspective may reach
+/// anywhere.
 Part part_to_draw(PictureData const& data, Appearance const& appearance, Projection const& project,
                   SceneArea const& area, Scene const& scene, int fine) {
-  if (!data.rigid_shapes.empty() || data.ground || project.eye.near()) return {0, 0, area.width, area.height};
+  if (!data.rigid_shapes.empty() || data.ground || data.swept || project.eye.near())
+    return {0, 0, area.width, area.height};
   Covered covered;
   covered.add(scene.bodies, fine);
   covered.add(scene.ghosts, fine);
@@ -186,6 +216,23 @@ Image pasted(Image const& drawn, Part const& part, SceneArea const& area, std::o
   return out;
 }
 
+/// Rigid shapes, those of sections as these are shown.
+void draw_shapes(PictureData const& data, Projection const& project, SceneArea const& area, int fine,
+                 SurfaceBuffers& tools) {
+  if (data.swept && *data.swept > 0) {
+    Surfaces shapes = swept_shapes(data, project, fine);
+    if (project.eye.near()) move_to_where_seen(shapes, project, fine);
+    for (Vertex& vertex : shapes.vertices) vertex.depth -= 1;  // cut faces of bodies lie in the same planes
+    return rasterise(shapes, tools);
+  }
+  Stage const stage{data.stage_low, data.stage_high};
+  RigidCanvas const canvas{project, stage, data.dimension, fine, area.top * fine, area.right * fine};
+  if (data.swept)
+    canvas.draw(tools, with_mirror_images(data.rigid_shapes));
+  else
+    canvas.draw(tools, data.rigid_shapes);
+}
+
 }  // namespace
 
 Image draw_bodies(PictureData const& data, Appearance const& appearance, Projection const& whole, SceneArea const& area,
@@ -211,9 +258,7 @@ Image draw_bodies(PictureData const& data, Appearance const& appearance, Project
   shading.bodies = {&bodies, finish_of_bodies(data, scene, map, hatch_of(area, fine))};
   if (!data.rigid_shapes.empty()) {
     tools = SurfaceBuffers(bodies.width, bodies.height);
-    Stage const stage{data.stage_low, data.stage_high};
-    RigidCanvas{project, stage, data.dimension, fine, area.top * fine, area.right * fine}.draw(tools,
-                                                                                               data.rigid_shapes);
+    draw_shapes(data, project, area, fine, tools);
     shading.tools = {&tools, finish_of_tools(data, 2 * scene.radius)};
   }
   if (!scene.ghosts.triangles.empty() || !scene.ghosts.ellipsoids.empty()) {

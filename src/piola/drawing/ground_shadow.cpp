@@ -133,8 +133,8 @@ std::vector<GroundLight> ground_below(PictureData const& data, Appearance const&
                                       SceneArea const& area) {
   if (!data.ground || data.dimension < 3 || data.points.empty()) return {};
   Ground const ground(*data.ground, lowest(data, *data.ground));
-  Square const square = around(ground, data.points);
   Square const stage = around(ground, std::array{data.stage_low, data.stage_high});
+  Square const square = data.swept ? stage : around(ground, data.points);
   if (!(square.side > 0) || !std::isfinite(ground.height)) return {};
   auto const hidden = hidden_sky(heights(data, appearance, ground, square), square.side);
   Square const& disc = stage.side > 0 ? stage : square;

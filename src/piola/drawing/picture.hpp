@@ -56,6 +56,9 @@ struct PictureData {
   std::span<ReferenceMesh const> meshes = {};  ///< per body; none: particles are balls that do not stretch
   std::span<std::uint8_t const> loose = {};    ///< not 0: has lost its neighbours for good; empty: none has
   std::span<std::uint8_t const> held = {};     ///< not 0: hatched; empty: none is
+  /// Axisymmetric bodies, whose points lie in a half section: the angle through which it is swept [deg], in three
+  /// dimensions; 0: the section and its mirror image, in two. Nothing: other bodies. See revolution.hpp.
+  std::optional<double> swept = {};
   /// Torn cells of the mesh of each body; empty: determined from the points.
   std::span<std::vector<Index> const> torn = {};
 };

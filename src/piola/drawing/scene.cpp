@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/drawing/scene.hpp"
 #include "piola/base/contracts.hpp"
+#include "piola/drawing/revolution.hpp"
+#include "piola/drawing/revolved_shapes.hpp"
+#include "piola/drawing/revolved_skin.hpp"
 #include "piola/exec/host_loops.hpp"
 #include <algorithm>
 #include <map>
+#include <numbers>
+#include <optional>
 
 namespace piola {
 namespace {
@@ -59,6 +64,8 @@ class BodyDrawing {
     }
     Skin skin;
     if (mesh_ && solid && mesh_->dimension > 1) skin = make_skin(*mesh_, now);
+    if (data_.swept && !skin.facets.empty())
+      skin = revolved(skin, *data_.swept, width_of_axis(skin.reference, mesh_->spacing));
     if (!skin.facets.empty()) {
       add_skin(skin, first);
       add_section(skin, first);
@@ -78,8 +85,9 @@ class BodyDrawing {
     for (SkinFacet const& facet : skin.facets) {
       Triangle t;
       // A support often holds one layer of particles: its cells are hatched, which can be seen from the side.
-      t.owner = owner(std::any_of(facet.corner.begin(), facet.corner.end(),
-                                  [&](Index c) { return held(first + static_cast<std::size_t>(c)); }));
+      t.owner = owner(std::any_of(facet.corner.begin(), facet.corner.end(), [&](Index c) {
+        return held(first + skin.particle_of(static_cast<std::size_t>(c)));
+      }));
       for (std::size_t c = 0; c < 3; ++c) {
         auto const i = static_cast<std::size_t>(facet.corner[c]);
         if (vertex[i] < 0) {
@@ -96,7 +104,7 @@ class BodyDrawing {
 
   Vertex vertex_of(Skin const& skin, std::size_t i, std::size_t first) const {
     Vertex v = to_samples_(skin.place[i]);
-    v.value = value(first + i);
+    v.value = value(first + skin.particle_of(i));
     if (appearance_.cut)
       v.beyond = static_cast<float>(
           beyond(*appearance_.cut, appearance_.cut->in_reference ? skin.reference[i] : skin.place[i]));
@@ -117,7 +125,7 @@ class BodyDrawing {
   }
 
   void add_section(Skin const& skin, std::size_t first) {
-    if (!appearance_.cut) return;
+    if (!appearance_.cut || mesh_->dimension < 3) return;
     std::vector<double> far(skin.place.size());
     for (std::size_t i = 0; i < far.size(); ++i)
       far[i] = beyond(*appearance_.cut, appearance_.cut->in_reference ? skin.reference[i] : skin.place[i]);
@@ -149,6 +157,7 @@ class BodyDrawing {
       if (skin.facets.empty() || skin.inside[i] == 0) alone.push_back(static_cast<std::uint32_t>(i));
     bool const as_points =
         as_ == Representation::points || (as_ == Representation::automatic && alone.size() > most_balls);
+    if (data_.swept) return add_rings(now, alone, first, as_points);
     std::vector<Ellipsoid> balls(alone.size());
     exec_host::parallel_for(static_cast<Index>(alone.size()), [&](Index k) {
       std::size_t const i = alone[static_cast<std::size_t>(k)];
@@ -158,8 +167,22 @@ class BodyDrawing {
       (is_gone(alone[k], first) ? scene_.ghosts : scene_.bodies).ellipsoids.push_back(balls[k]);
   }
 
-  Ellipsoid ball(Configuration const& now, std::size_t i, std::size_t first, bool as_point) const {
-    Point3 const& x = data_.points[first + i];
+  /// Balls on both sides of the axis, or along a circle at the distance of `overlap`.
+  void add_rings(Configuration const& now, std::vector<std::uint32_t> const& alone, std::size_t first, bool as_points) {
+    constexpr double overlap = 1.4, most = 360;  // distance in radii; of a circle
+    for (std::size_t const i : alone) {
+      double const radians = *data_.swept * std::numbers::pi / 180;
+      double const parts =
+          std::clamp(radians * data_.points[first + i][0] / (overlap * data_.radius[first + i]), 1.0, most);
+      auto& out = (is_gone(i, first) ? scene_.ghosts : scene_.bodies).ellipsoids;
+      for (double const angle : angles_of_sweep(*data_.swept, std::max(*data_.swept, 1.0) / std::ceil(parts)))
+        out.push_back(ball(now, i, first, as_points, Rotation::by(angle)));
+    }
+  }
+
+  Ellipsoid ball(Configuration const& now, std::size_t i, std::size_t first, bool as_point,
+                 std::optional<Rotation> const& rotate = {}) const {
+    Point3 const x = rotate ? (*rotate)(data_.points[first + i]) : data_.points[first + i];
     Ellipsoid e;
     Vertex const centre = to_samples_(x);
     e.x = centre.x;
@@ -172,6 +195,8 @@ class BodyDrawing {
     double const radius = data_.radius[first + i] * to_samples_.project.scale * to_samples_.fine;
     bool const small = as_point || !(radius > least);
     std::array<Point3, 3> S = to_samples_.axes();
+    if (rotate)
+      for (Point3& row : S) row = rotate->seen_from_section(row);
     if (mesh_ && !small)
       stretch(S, with_bounded_stretches(fitted_gradient(*mesh_, now, i), least_ball_stretch, most_ball_stretch));
     for (Point3& row : S) row = plus({}, small ? least : radius, row);
@@ -269,6 +294,26 @@ Scene make_scene(PictureData const& data, Appearance const& appearance, Projecti
   }
   scene.radius = static_cast<float>(typical_radius(data.radius) * project.scale * fine);
   return scene;
+}
+
+Surfaces swept_shapes(PictureData const& data, Projection const& project, int fine) {
+  PIOLA_EXPECTS(data.swept && *data.swept > 0);
+  Surfaces out;
+  ToSamples const to_samples{project, static_cast<double>(fine)};
+  for (RigidShape const& shape : data.rigid_shapes) {
+    Skin const skin = revolved(shape, {data.stage_low, data.stage_high}, *data.swept);
+    auto const first = static_cast<std::int32_t>(out.vertices.size());
+    for (Point3 const& p : skin.place) out.vertices.push_back(to_samples(p));
+    for (SkinFacet const& facet : skin.facets) {
+      Triangle t{.owner = RigidCanvas::bright};
+      for (std::size_t c = 0; c < 3; ++c) {
+        t.corner[c] = first + static_cast<std::int32_t>(facet.corner[c]);
+        t.normal[c] = to_samples.normal(facet.normal[c]);
+      }
+      out.triangles.push_back(t);
+    }
+  }
+  return out;
 }
 
 }  // namespace piola

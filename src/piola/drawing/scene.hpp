@@ -26,4 +26,7 @@ struct Scene {
 /// `fine`: samples per pixel of the projection.
 Scene make_scene(PictureData const& data, Appearance const& appearance, Projection const& project, int fine);
 
+/// The surfaces to which rigid shapes of a section are swept; see PictureData::swept. Owner: RigidCanvas::bright.
+Surfaces swept_shapes(PictureData const& data, Projection const& project, int fine);
+
 }  // namespace piola

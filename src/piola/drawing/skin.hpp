@@ -49,7 +49,8 @@ inline constexpr double least_ball_stretch = 1.0 / 3, most_ball_stretch = 4;
 /// F with its principal stretches brought between these bounds.
 Mat<3> with_bounded_stretches(Mat<3> const& F, double least, double most);
 
-/// A triangle of a body's surface, in 2D of its inside. Corners are particles, counted from the body's first one.
+/// A triangle of a body's surface, in 2D of its inside. Corners are particles, counted from the body's first one; see
+/// Skin::particle for others.
 struct SkinFacet {
   std::array<Index, 3> corner{};
   std::array<Point3, 3> normal{};  ///< at the corners; smooth but for edges of more than 55 degrees
@@ -57,11 +58,16 @@ struct SkinFacet {
 
 /// Surface of a body at one time.
 struct Skin {
-  std::vector<Point3> place;         ///< of each particle's corner, at the surface for outer particles: x + F S [m]
+  std::vector<Point3> place;         ///< of each corner, at the surface for outer particles: x + F S [m]
   std::vector<Point3> reference;     ///< the same in the reference configuration: X + S
   std::vector<std::uint8_t> whole;   ///< per cell: not torn
   std::vector<std::uint8_t> inside;  ///< per particle: belongs to a whole cell, so that it needs no ball
   std::vector<SkinFacet> facets;
+  std::vector<Index> particle = {};  ///< of each corner; empty: corner i is that of particle i
+
+  std::size_t particle_of(std::size_t corner) const {
+    return particle.empty() ? corner : static_cast<std::size_t>(particle[corner]);
+  }
 };
 
 /// Computes the skin: outer facets of the cells that are not torn; in 2D all of these cells. At a tear the skin extends

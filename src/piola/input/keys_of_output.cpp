@@ -99,6 +99,11 @@ constexpr std::array picture_rows{
     PictureKey{{"output.pictures", "warp", quantity, "1", closed(0, 1e6), default_of_member,
                 "magnification of displacements; the title states it"},
                fills<&PictureSpec::warp>},
+    PictureKey{
+        {"output.pictures", "revolve", quantity, "degree", Interval{0, 360, true, false}, "none",
+         "of axisymmetric bodies: sweeps the half section about the axis, 270 for a body cut open; without it the "
+         "section and its mirror image are drawn"},
+        fills<&PictureSpec::revolve>},
     PictureKey{{"output.pictures", "ground", flag, "", any_value, default_of_member,
                 "a plane below the bodies as they stand at the start, with their shadow; three dimensions only"},
                fills<&PictureSpec::ground>},

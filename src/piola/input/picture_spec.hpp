@@ -69,6 +69,7 @@ struct PictureSpec {
   double warp = 1;           ///< magnification of displacements
   bool ground = false;       ///< a plane below the bodies, with their shadow
   bool supports = false;     ///< what supports hold is hatched
+  double revolve = 0;        ///< angle through which sections of axisymmetric bodies are swept [deg]; 0: none
   std::string caption = {};  ///< of a panel
 };
 

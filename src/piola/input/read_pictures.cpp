@@ -88,6 +88,19 @@ void check_component(Section const& section, PictureSpec const& picture) {
   }
 }
 
+void check_revolve(Section const& section, std::span<BodySpec const> bodies, PictureSpec const& picture) {
+  if (!(picture.revolve > 0) || bodies.empty()) return;
+  std::string const name = section.name_of("revolve");
+  if (!bodies.front().shape.axisymmetric)
+    section.problems().add(section.place_of("revolve"),
+                           name + " is " + number_text(picture.revolve, 6) +
+                               " degree (allowed with geometry = \"axisymmetric\" only) - remove it");
+  else if (picture.appearance.cut)
+    section.problems().add(section.place_of("revolve"),
+                           name + " is " + number_text(picture.revolve, 6) +
+                               " degree beside a cut (allowed: one of both) - below 360 degree bodies are cut open");
+}
+
 /// Reads the keys common to a picture and a panel. A panel with another field does not take component and range from
 /// the picture.
 void read_picture(Section const& section, std::span<PictureKey const> keys, std::span<BodySpec const> bodies,
@@ -110,10 +123,11 @@ void read_picture(Section const& section, std::span<PictureKey const> keys, std:
   }
   read_view(section, picture);
   read_centre(section, picture, bodies);
-  if (picture.ground && !bodies.empty() && bodies.front().shape.dimension < 3)
+  if (picture.ground && !bodies.empty() && bodies.front().shape.dimension < 3 && !(picture.revolve > 0))
     section.problems().add(section.place_of("ground"),
                            section.name_of("ground") + " is true (allowed in three dimensions only) - remove it");
   read_appearance(section, bodies, picture.appearance);
+  check_revolve(section, bodies, picture);
 }
 
 void read_panels(Section const& section, PicturesSpec& pictures, std::span<BodySpec const> bodies) {

@@ -44,6 +44,8 @@ FrameReader::FrameReader(std::filesystem::path const& path) : file_(new File{hdf
   if (dimension < 1 || dimension > 3)
     file_->reader.fail("dimension", fmt::format("is {} (1, 2 or 3 is known)", dimension));
   dimension_ = static_cast<int>(dimension);
+  axisymmetric_ = dimension == 2 && file_->reader.has_attribute("/", "axisymmetric") &&
+                  file_->reader.integer("/", "axisymmetric") != 0;
   auto const shape = file_->reader.shape_of_numbers("/VTKHDF/Points");
   if (shape.size() != 2 || shape[1] != 3) file_->reader.fail("/VTKHDF/Points", "has not 3 numbers per row");
   particles_ = shape[0];

@@ -19,6 +19,7 @@ class FrameReader {
   ~FrameReader();
   double time() const { return time_; }                  ///< s
   int dimension() const { return dimension_; }           ///< 2 or 3 (1 for bars)
+  bool axisymmetric() const { return axisymmetric_; }    ///< half sections, volumes are those of rings [m^3]
   std::size_t particles() const { return particles_; }   ///< number of them
   std::vector<float> points() const;                     ///< m, three per particle
   std::vector<std::array<double, 3>> positions() const;  ///< m, points() as doubles
@@ -43,6 +44,7 @@ class FrameReader {
   std::unique_ptr<File> file_;
   double time_ = 0;
   int dimension_ = 3;
+  bool axisymmetric_ = false;
   std::size_t particles_ = 0;
 };
 

@@ -123,6 +123,7 @@ void FrameWriter::write(double time, FieldCache& cache, WithAll const& with_all)
   file.group("/VTKHDF/CellData");
   file.group("/VTKHDF/FieldData");
   file.attribute("/", "dimension", std::array<std::int64_t, 1>{cache.particles().dimension});
+  if (cache.particles().axisymmetric) file.attribute("/", "axisymmetric", std::array<std::int64_t, 1>{1});
   file.attribute("/VTKHDF", "Version", std::array<std::int64_t, 2>{1, 0});
   file.attribute("/VTKHDF", "Type", std::string_view("UnstructuredGrid"));
   for (char const* count : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"})

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/pictures/case_scene.hpp"
 #include "piola/base/contracts.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/drawing/skin.hpp"
 #include "piola/math/quaternion.hpp"
 #include "piola/model/case_particles.hpp"
@@ -104,6 +105,19 @@ std::optional<Point3> ground_of(CaseSpec const& spec, PictureSpec const& picture
   if (!picture.ground) return std::nullopt;
   return View{0, 0, upwards(spec)}.up();
 }
+
+std::optional<double> sweep_of(PictureSpec const& picture, bool axisymmetric) {
+  if (picture.revolve > 0 && !axisymmetric)
+    throw InputError(
+        "revolve: the bodies are not axisymmetric (allowed with geometry = \"axisymmetric\" only) - leave it "
+        "out");
+  if (picture.revolve > 0 && picture.appearance.cut)
+    throw InputError("revolve: there is a cut, too (allowed: one of both) - an angle below 360 cuts the bodies open");
+  if (!axisymmetric) return std::nullopt;
+  return picture.revolve;
+}
+
+int dimension_shown(std::optional<double> const& swept, int dimension) { return swept && *swept > 0 ? 3 : dimension; }
 
 std::string title_of(std::string const& title, PictureSpec const& picture) {
   if (picture.warp == 1) return title;

@@ -26,6 +26,13 @@ std::span<PictureSpec const> panels_of(PicturesSpec const& pictures);
 /// Upwards, if the picture shows a ground below the bodies: see PictureData::ground.
 std::optional<Point3> ground_of(CaseSpec const& spec, PictureSpec const& picture);
 
+/// The angle through which a picture sweeps half sections [deg], see PictureData::swept; nothing: other bodies. Throws
+/// InputError if a picture asks for it without axisymmetric bodies, or beside a cut.
+std::optional<double> sweep_of(PictureSpec const& picture, bool axisymmetric);
+
+/// Number of dimensions of a picture of bodies of `dimension` dimensions.
+int dimension_shown(std::optional<double> const& swept, int dimension);
+
 /// The title of a picture: that of the case, with the magnification of displacements.
 std::string title_of(std::string const& title, PictureSpec const& picture);
 

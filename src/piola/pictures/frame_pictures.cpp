@@ -2,6 +2,7 @@
 #include "piola/pictures/frame_pictures.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
+#include "piola/drawing/revolved_shapes.hpp"
 #include "piola/observers/results_folder.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/output/summary.hpp"
@@ -147,8 +148,12 @@ Shot::Panel FramePictures::panel_of(FrameReader const& frame, Shot const& shot, 
   int const component = component_of(spec, field.components);
   auto const stored = frame.values(spec.field);
   std::vector<double> const values(stored.begin(), stored.end());
-  return {field, component, picture_values(values, field.components, component),
-          warped(shot.points, run_.particles.X.seen(), spec.warp)};
+  Shot::Panel panel{field, component, picture_values(values, field.components, component),
+                    warped(shot.points, run_.particles.X.seen(), spec.warp)};
+  panel.swept = sweep_of(spec, shot.axisymmetric);
+  if (panel.swept)
+    panel.in_space = revolved({.points = panel.points, .volume = shot.volume, .body = shot.body}, *panel.swept);
+  return panel;
 }
 
 Shot FramePictures::read(std::filesystem::path const& path) const {
@@ -160,23 +165,30 @@ Shot FramePictures::read(std::filesystem::path const& path) const {
             .body = frame.bodies(),
             .loose = loose_particles(frame),
             .shapes = shapes_at(run_.spec.rigids, frame.time(), frame.rigid_poses())};
+  shot.axisymmetric = frame.axisymmetric() || run_.spec.axisymmetric;
   shot.of_case = shot.dimension == particles.dimension && shot.body == particles.body.seen();
   auto const stored = frame.volumes();
   shot.volume.assign(stored.begin(), stored.end());
   if (shot.of_case) shot.volume = particles.volume.seen();
-  shot.radii = ball_radii(shot.volume, shot.body, shot.dimension);
+  shot.radii = shot.axisymmetric
+                   ? ball_radii_of_rings(shot.volume, shot.of_case ? particles.X.seen() : shot.points, shot.body)
+                   : ball_radii(shot.volume, shot.body, shot.dimension);
   for (PanelView const& view : views_) shot.panels.push_back(panel_of(frame, shot, view.spec));
   return shot;
 }
 
 void FramePictures::begin(Shot const& first) {
-  stage_ = Stage::around(first.of_case ? run_.particles.X.seen() : first.points);
+  Stage const stage = Stage::around(first.of_case ? run_.particles.X.seen() : first.points);
   for (std::size_t k = 0; k < views_.size(); ++k) {
     PanelView& view = views_[k];
     view.field = first.panels[k].field;
     view.component = first.panels[k].component;
-    view.camera = camera_of(view.spec, upwards(run_.spec), run_.spec.bodies, first.dimension);
-    if (first.dimension == 3) view.camera.eye = eye_before(view.camera, view.spec.perspective, stage_.low, stage_.high);
+    auto const& swept = first.panels[k].swept;
+    int const dimension = dimension_shown(swept, first.dimension);
+    view.stage = swept ? revolved(stage, *swept) : stage;
+    view.camera = camera_of(view.spec, upwards(run_.spec), run_.spec.bodies, dimension);
+    if (dimension == 3)
+      view.camera.eye = eye_before(view.camera, view.spec.perspective, view.stage.low, view.stage.high);
   }
 }
 
@@ -189,7 +201,8 @@ void FramePictures::add(std::filesystem::path const& frame, std::size_t number) 
   for (std::size_t k = 0; k < views_.size(); ++k) {
     PanelView& view = views_[k];
     include(view.window, view.camera, subject(shot, k));
-    if (view.camera.followed_body < 0) show_shapes(view.window, view.camera.view, shot.shapes, stage_);
+    if (view.camera.followed_body < 0)
+      show_all_shapes(view.window, view.camera.view, shot.shapes, view.stage, shot.panels[k].swept);
     view.spread.include(shot.panels[k].values);
   }
   frames_.push_back(std::move(entry));
@@ -246,6 +259,9 @@ FramePictures::Look FramePictures::look() const {
 
 Subject FramePictures::subject(Shot const& shot, std::size_t panel) const {
   double const margin = shot.radii.empty() ? 0 : *std::max_element(shot.radii.begin(), shot.radii.end());
+  RevolvedPoints const& in_space = shot.panels[panel].in_space;
+  if (!in_space.points.empty())
+    return {.points = in_space.points, .volume = in_space.volume, .body = in_space.body, .margin = margin};
   return {.points = shot.panels[panel].points, .volume = shot.volume, .body = shot.body, .margin = margin};
 }
 
@@ -259,10 +275,10 @@ PictureData FramePictures::data(Shot const& shot, std::size_t panel, Torn const&
           .unit = shown.field.unit,
           .title = title_of(title(), view.spec),
           .time = shot.time,
-          .dimension = shot.dimension,
+          .dimension = dimension_shown(shown.swept, shot.dimension),
           .rigid_shapes = shot.shapes,
-          .stage_low = stage_.low,
-          .stage_high = stage_.high,
+          .stage_low = view.stage.low,
+          .stage_high = view.stage.high,
           .spread = view.spread,
           .case_text = run_.spec.source,
           .eye = eye_at(view.camera, subject(shot, panel)),
@@ -272,6 +288,7 @@ PictureData FramePictures::data(Shot const& shot, std::size_t panel, Torn const&
           .meshes = shot.of_case ? std::span<ReferenceMesh const>(meshes_) : std::span<ReferenceMesh const>(),
           .loose = shot.loose,
           .held = shot.of_case ? std::span<std::uint8_t const>(view.held) : std::span<std::uint8_t const>(),
+          .swept = shown.swept,
           .torn = torn};
 }
 

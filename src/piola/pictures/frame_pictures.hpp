@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/base/contracts.hpp"
 #include "piola/drawing/panels.hpp"
+#include "piola/drawing/revolution.hpp"
 #include "piola/drawing/rigid_picture.hpp"
 #include "piola/input/case_spec.hpp"
 #include "piola/output/frame_reader.hpp"
@@ -33,6 +34,8 @@ struct Shot {
     int component;
     std::vector<double> values;
     std::vector<std::array<double, 3>> points;  ///< with magnified displacements [m]
+    std::optional<double> swept = {};           ///< see PictureData::swept
+    RevolvedPoints in_space = {};               ///< of axisymmetric bodies
   };
   double time;                                ///< s
   int dimension;                              ///< of the bodies
@@ -40,6 +43,7 @@ struct Shot {
   std::vector<int> body;
   std::vector<std::uint8_t> loose;  ///< see loose_particles
   std::vector<RigidShape> shapes;
+  bool axisymmetric = false;
   bool of_case = false;  ///< particles are those of the case
   std::vector<double> volume = {}, radii = {};
   std::vector<Panel> panels = {};
@@ -98,6 +102,7 @@ class FramePictures {
     int component = whole_field;
     Window window = {};
     Spread spread = {};
+    Stage stage = {};
   };
   struct Entry {
     double time;
@@ -115,7 +120,6 @@ class FramePictures {
   PicturedRun run_;
   std::vector<ReferenceMesh> meshes_;
   std::vector<PanelView> views_;
-  Stage stage_;
   std::vector<Entry> frames_;
 };
 

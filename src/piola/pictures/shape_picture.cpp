@@ -3,6 +3,8 @@
 #include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
+#include "piola/drawing/revolution.hpp"
+#include "piola/drawing/revolved_shapes.hpp"
 #include "piola/drawing/rigid_picture.hpp"
 #include "piola/model/region_checks.hpp"
 #include "piola/pictures/case_scene.hpp"
@@ -70,42 +72,64 @@ Paint by_patch(CaseSpec const& spec, ParticleSet const& particles) {
   return paint;
 }
 
+/// Particles at the start and how much of the space they take.
+struct StartOfBodies {
+  std::vector<Point3> points;
+  std::vector<double> radii;
+  std::optional<double> swept;  ///< see PictureData::swept
+  RevolvedPoints in_space = {};
+  Stage stage = {};
+
+  StartOfBodies(CaseSpec const& spec, ParticleSet const& particles, PictureSpec const& picture)
+      : radii(particles.axisymmetric ? ball_radii_of_rings(particles.volume, particles.X.seen(), particles.body)
+                                     : ball_radii(particles.volume, particles.body, particles.dimension)),
+        swept(sweep_of(picture, particles.axisymmetric)) {
+    for (std::size_t i = 0; i < particles.X.size(); ++i)
+      points.push_back(start_of(spec.bodies[static_cast<std::size_t>(particles.body[i])], particles.X[i]));
+    stage = Stage::around(points);
+    if (!swept) return;
+    stage = revolved(stage, *swept);
+    in_space = revolved({.points = points, .volume = particles.volume, .body = particles.body}, *swept);
+  }
+  Subject subject(ParticleSet const& particles) const {
+    double const margin = radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end());
+    if (swept) return {.points = in_space.points, .volume = in_space.volume, .body = in_space.body, .margin = margin};
+    return {.points = points, .volume = particles.volume, .body = particles.body, .margin = margin};
+  }
+};
+
 }  // namespace
 
 Image draw_shape(CaseSpec const& spec, ParticleSet const& particles, ShapePictureOptions const& options) {
   PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   Paint const paint = options.patches ? by_patch(spec, particles) : by_body(particles);
-  std::vector<std::array<double, 3>> points;
-  for (std::size_t i = 0; i < particles.X.size(); ++i)
-    points.push_back(start_of(spec.bodies[static_cast<std::size_t>(particles.body[i])], particles.X[i]));
-  auto const radii = ball_radii(particles.volume, particles.body, particles.dimension);
   auto const shapes = shapes_at(spec.rigids, 0);
-  Stage const stage = Stage::around(points);
   CaseSpec asked = spec;
   PictureSpec& picture = asked.output.pictures;
   for (auto const& change : options.look) change(picture);
-  Camera camera = camera_of(picture, upwards(asked), spec.bodies, particles.dimension);
-  Subject const subject{.points = points,
-                        .volume = particles.volume,
-                        .body = particles.body,
-                        .margin = radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end())};
-  if (particles.dimension == 3) camera.eye = eye_before(camera, picture.perspective, stage.low, stage.high);
+  StartOfBodies const start(spec, particles, picture);
+  Stage const& stage = start.stage;
+  int const dimension = dimension_shown(start.swept, particles.dimension);
+  Camera camera = camera_of(picture, upwards(asked), spec.bodies, dimension);
+  Subject const subject = start.subject(particles);
+  if (dimension == 3) camera.eye = eye_before(camera, picture.perspective, stage.low, stage.high);
   Window window;
   include(window, camera, subject);
-  if (camera.followed_body < 0) show_shapes(window, camera.view, shapes, stage);
-  PictureData const data{.points = points,
-                         .radius = radii,
+  if (camera.followed_body < 0) show_all_shapes(window, camera.view, shapes, stage, start.swept);
+  PictureData const data{.points = start.points,
+                         .radius = start.radii,
                          .values = {},
                          .label = count_text(particles.size()) + " particles",
                          .unit = {},
                          .title = spec.title,
-                         .dimension = particles.dimension,
+                         .dimension = dimension,
                          .rigid_shapes = shapes,
                          .stage_low = stage.low,
                          .stage_high = stage.high,
                          .colours = paint.colours,
                          .legend = paint.legend,
-                         .eye = eye_at(camera, subject)};
+                         .eye = eye_at(camera, subject),
+                         .swept = start.swept};
   return draw_picture(data, style_of(picture, camera, window), shown_window(window, camera, subject));
 }
 

@@ -3,6 +3,7 @@
 #include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/drawing/picture.hpp"
+#include "piola/drawing/revolution.hpp"
 #include "piola/formulations/field_signs.hpp"
 #include <algorithm>
 #include <cmath>
@@ -76,9 +77,24 @@ std::array<double, 2> ends_of_axis(Extent& extent) {
   return {std::max(extent.low, low - air / 2), std::min(extent.high, high + air / 2)};
 }
 
+/// The bodies of half sections and the radii of their balls.
+void read_sections(FrameReader const& frame, FrameStatistics& statistics) {
+  auto const body = frame.bodies();
+  auto const stored = frame.volumes();
+  std::vector<double> const volume(stored.begin(), stored.end());
+  auto const radii = ball_radii_of_rings(volume, frame.positions(), body);
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    auto const b = static_cast<std::size_t>(std::clamp<double>(body[i], 0, most_bodies - 1));
+    statistics.body.push_back(static_cast<std::uint16_t>(b));
+    if (b >= statistics.radius.size()) statistics.radius.resize(b + 1);
+    statistics.radius[b] = radii[i];
+  }
+}
+
 void read_bodies(FrameReader const& frame, FrameStatistics& statistics) {
   auto const body = frame.bodies();
   auto const volume = frame.volumes();
+  if (frame.axisymmetric()) return read_sections(frame, statistics);
   std::vector<double> largest;
   for (std::size_t i = 0; i < body.size(); ++i) {
     auto const b = static_cast<std::size_t>(std::clamp<double>(body[i], 0, most_bodies - 1));
@@ -100,6 +116,7 @@ FrameStatistics statistics_of(FrameReader const& first, std::vector<std::string>
   FrameStatistics statistics{.dimension = first.dimension(), .particles = first.particles()};
   for (std::string const& name : fields)
     statistics.fields.push_back({first.info(name), label_of(first.info(name)), {}, {}});
+  statistics.axisymmetric = first.axisymmetric();
   read_bodies(first, statistics);
   return statistics;
 }

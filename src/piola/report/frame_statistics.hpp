@@ -22,6 +22,7 @@ struct ShownField {
 /// Data of all frames of a run that are required to code any of them.
 struct FrameStatistics {
   int dimension = 3;
+  bool axisymmetric = false;  ///< half sections
   std::size_t particles = 0;
   std::vector<std::size_t> frames = {};               ///< numbers of the frames that were read
   std::vector<double> times = {};                     ///< of these frames [s]

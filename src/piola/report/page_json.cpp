@@ -190,6 +190,7 @@ Json about_frames(RunFolder const& run, FrameStatistics const& statistics, Plan 
               {"shapes", Json::array()},
               {"poses", Json::array()},
               {"maps", {{"rising", colours_between(0, 1)}, {"around zero", colours_between(-1, 1)}}}};
+  if (statistics.axisymmetric) frames["mirrored"] = true;
   auto const rigids = run.spec ? run.spec->rigids : std::vector<RigidSpec>();
   for (RigidShape const& shape : shapes_at(rigids, 0)) frames["shapes"].push_back(shape_json(shape));
   for (std::size_t const k : plan.frames)
