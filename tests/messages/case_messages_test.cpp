@@ -33,7 +33,8 @@ fix = "xyw"
   EXPECT_EQ(
       message_of(text),
       "case.toml: the case needs \"title\" (what the case is called in files and pictures) - add title = \"A title\"\n"
-      "case.toml:1:1: \"titel\" is not a key of a case (allowed: title, constants, library, run, region, body, "
+      "case.toml:1:1: \"titel\" is not a key of a case (allowed: title, geometry, constants, library, run, region, "
+      "body, "
       "support, load, mirror, crack, rigid, contact, tie, probe, quantity, output) - did you mean \"title\"?\n"
       "case.toml:3:7: run.end cannot be read: \"0.5 m\" is not a time (expected a unit such as s)\n"
       "case.toml:4:7: run.cfl is -1 (allowed: above 0, at most 2)\n"
