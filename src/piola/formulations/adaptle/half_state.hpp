@@ -12,6 +12,7 @@ struct WriteRecords {
   BodyConstants body;
   Settings settings;
   HalfVolume half;
+  OwnComponents radial_stress;
   Components x, v_half, volume, viscosity, active, S_half, pressure, rho_half, volume_half, F_rate, gap, K, N,
       gradient_mean;
   SpatialTable spatial;    ///< records null: not needed
@@ -21,6 +22,7 @@ struct WriteRecords {
       : body(of),
         settings(s.settings),
         half(s, of, table, dt),
+        radial_stress(write(s.field.radial_stress)),
         x(read(s.field.x)),
         v_half(read(s.field.v_half)),
         volume(read(s.field.volume)),
@@ -68,6 +70,16 @@ struct WriteRecords {
   /// The D dimensions of F.
   PIOLA_FN Mat<D, Lanes> deformation(Index i) const { return restrict_to<D>(half.F.matrix<Lanes>(i)); }
 
+  PIOLA_FN void clear_radial_stress(Group g) const {
+    for (int p = 0; p < 2 && radial_stress.data != nullptr; ++p) radial_stress.put(g, Lanes(0.0), p);
+  }
+  PIOLA_FN void put_radial_stress(Group g, Lanes const& weight, Mat<D, Lanes> const& F, Here const& here) const {
+    if (radial_stress.data == nullptr) return;
+    Mat<D, Lanes> const inverse_F = inverse(F);
+    for (int p = 0; p < 2; ++p)
+      radial_stress.put(g, weight * (here.stress(p, 0) * inverse_F(0, 0) + here.stress(p, 1) * inverse_F(0, 1)), p);
+  }
+
   /// The halves of damping and springs contained in A, per unit of dF/dt and of F - I, for total-Lagrangian particles.
   PIOLA_FN void add_hourglass(Index i, Here const& here, Mat<D, Lanes> const& F, Lanes* A) const {
     Lanes const share = select(here.phi > 0.0, Lanes(0.0), 0.5 * volume.scalar<Lanes>(i));
@@ -98,9 +110,11 @@ struct WriteRecords {
           for (int l = 0; l < D; ++l) sum += here.stress(p, l) * FN(l, q);
           A[p * D + q] = weight * sum;
         }
+      put_radial_stress(g, select(bears, weight, Lanes(0.0)), F, here);
       add_hourglass(i, here, F, A);
     }
     for (Lanes& value : A) value = select(bears, value, Lanes(0.0));
+    if (!any(bears)) clear_radial_stress(g);
     store_in_records<D>(material, settings.equations, g, R::A, A);
   }
 
@@ -135,9 +149,12 @@ struct WriteRecords {
         r[R::a - first + p] = a;
         r[R::n - first + p] = n;
       }
-      r[R::inverse_J - first] = here.rho * here.thickness / body.rho0;
+      // In the plane.
+      put_radial_stress(g, select(bears, share, Lanes(0.0)), F, here);
+      r[R::inverse_J - first] = here.rho * (settings.axisymmetric ? full(2, 2) : here.thickness) / body.rho0;
       add_hourglass(i, here, F, r);
     }
+    if (!any(bears)) clear_radial_stress(g);
     for (int c = 0; c < R::inverse_J - first; ++c) r[c] = select(bears, r[c], Lanes(0.0));
     r[R::inverse_J - first] = select(bears, r[R::inverse_J - first], Lanes(1.0));
     store_in_records<D>(material, settings.equations, g, first, r);

@@ -18,6 +18,25 @@
 namespace piola::adaptle {
 namespace {
 
+/// Volumes of images and forces of hoop stress have no meaning on the axis, where Eulerian particles would also form a
+/// jet.
+void check_axis(Assembly const& assembly, Problems& problems) {
+  if (!assembly.particles.axisymmetric) return;
+  if (comm::is_parallel())
+    problems.add({},
+                 "adaptle: geometry is \"axisymmetric\", and the run has several ranks (allowed: one, with threads) "
+                 "- run it without mpirun");
+  for (Body const& body : assembly.particles.bodies)
+    for (auto id = body.first; id < body.last; ++id) {
+      if (assembly.particles.X[at(id)][0] > 1e-3 * body.spacing[0]) continue;
+      problems.add({}, fmt::format("adaptle: geometry is \"axisymmetric\", and body \"{}\" has particles on the axis "
+                                   "(allowed: body.shape.placement = \"cell_centred\", half a spacing beside it) - "
+                                   "change the placement",
+                                   body.name));
+      break;
+    }
+}
+
 void check(Assembly const& assembly) {
   Problems problems;
   for (std::size_t b = 0; b < assembly.materials.size(); ++b)
@@ -40,6 +59,7 @@ void check(Assembly const& assembly) {
     problems.add({},
                  "adaptle: there is an initial deformation gradient (deformation follows from positions here) - "
                  "give initial_displacement instead");
+  check_axis(assembly, problems);
   for (Support const& support : assembly.supports)
     if (support.frame != Support::Frame::axes)
       problems.add({}, "adaptle: a support has a normal (allowed: fix along axes) - use fix, or a rigid plane");
