@@ -232,6 +232,20 @@ TEST(AdaptleAxisymmetry, RingsThatCrossTheAxisAreTurnedBack) {
   for (Index i = 0; i < cloud.size(); ++i) EXPECT_GE(cloud.state[i].x[0], 0);
 }
 
+TEST(AdaptleAxisymmetry, AResumedRunIsTheSame) {
+  Assembly a = rings({section(0, 1), section(0, 1, 0, 1.25)});
+  a.contact.law = ContactRule::Law::kernel;
+  choose_formula(a, "convert_when", "X < 0.3");
+  give_velocity(a, [](Point const& X) { return Point{20 * X[0], X[1] > 1.22 ? -200.0 : 0.0, 0}; });
+  auto const whole = make_formulation(a), second = make_formulation(a);
+  double const time = take_steps(*whole, 0, 5);
+  SavedState state = saved(*whole);
+  second->load(state);
+  take_steps(*whole, time, 5);
+  take_steps(*second, time, 5);
+  EXPECT_EQ(saved(*whole).values, saved(*second).values);
+}
+
 TEST(AdaptleAxisymmetry, WhatItCannotRunIsRefusedByName) {
   Assembly a = rings({section(0, 1)});
   EXPECT_EQ(refusal(a), "");

@@ -78,7 +78,7 @@ struct ForcePairs {
     sum[mu] = minimum(sum[mu], speed);
     Lanes const size = maximum(there, -1.0 * there);
     Lanes weight = (-0.5 * rho0) * (f(R::volume) * plain * (0.5 * (size + here)));
-    if (axisymmetric) weight = weight * (0.5 * circle(own.radius + magnitude(own.radius + g.r[0])));
+    if (D == 2 && axisymmetric) weight = weight * (0.5 * circle(own.radius + magnitude(own.radius + g.r[0])));
     Lanes power = Lanes(0.0);
     for (int p = 0; p < D; ++p) {
       Lanes mine = Lanes(0.0), other = Lanes(0.0);

@@ -85,7 +85,7 @@ struct DeformPairs {
     }
     Lanes const least = minimum(f(R::viscosity), Lanes(own.viscosity));  // negative if one of both is
     Lanes const weight = select(least < 0.0, Lanes(0.0), Vs),
-                of_both = b.axisymmetric ? both_rings(own, g, weight) : weight;
+                of_both = D == 2 && b.axisymmetric ? both_rings(own, g, weight) : weight;
     if constexpr (central) {
       add_central(sum, own, g, u, w, weight, of_both, f(R::viscosity));
     } else {
