@@ -78,11 +78,20 @@ bool AxisCorrection::is_complete(Sums const& sums, Index a) const {
   return std::hypot(moment[0], moment[1]) < few * weight;
 }
 
+bool AxisCorrection::is_on_axis(Sums const& sums, Index a) const {
+  return sums.fields.X.at(a) < 1e-3 * spacing_[at(a)];
+}
+
+/// Weight of the radial stress of a particle. On the axis that includes the hoop stress.
+double AxisCorrection::weight(Sums const& sums, Index a) const {
+  return (is_on_axis(sums, a) ? 2 : 1) * sums.fields.volume.at(a);
+}
+
 /// R_b = -sum_a V0_a (A0_b G_ab + h_ab) along the radius, of particles with a complete neighbourhood; h_aa = 1/R_a.
 void AxisCorrection::set_residuals(Sums const& sums) {
   each_particle([&](Index a, Body const& body) {
-    double const V = sums.fields.volume.at(a);
-    double own = 1 / sums.fields.X.at(a);
+    double const V = weight(sums, a);
+    double own = is_on_axis(sums, a) ? 0 : 1 / sums.fields.X.at(a);
     each_pair(sums, a, body.spacing, [&](Offset k, Neighbour const& b) {
       residual_[at(b.slot)] -= V * b.sign * sums.radial[at(k)];
       own -= sums.radial[at(k)];
@@ -90,7 +99,7 @@ void AxisCorrection::set_residuals(Sums const& sums) {
     residual_[at(a)] -= V * own;
   });
   each_particle([&](Index a, Body const&) {
-    closed_[at(a)] = is_complete(sums, a) ? 1 : 0;
+    closed_[at(a)] = !is_on_axis(sums, a) && is_complete(sums, a) ? 1 : 0;
     if (closed_[at(a)] == 0) residual_[at(a)] = 0;
   });
 }
@@ -120,7 +129,7 @@ void AxisCorrection::apply(Sums const& sums, std::span<double const> mu, std::ve
   std::fill(to.begin(), to.end(), 0);
   each_particle([&](Index a, Body const& body) {
     std::array const fit = fitted(sums, a, mu);
-    double const V = sums.fields.volume.at(a);
+    double const V = weight(sums, a);
     to[at(a)] += V * body.own_weight * (mu[at(a)] - fit[0]);
     each_pair(sums, a, body.spacing,
               [&](Offset k, Neighbour const& b) { to[at(b.slot)] += V * b.sign * change(sums, a, k, mu, fit); });
@@ -136,7 +145,7 @@ std::vector<double> AxisCorrection::solve(Sums const& sums) {
   std::size_t const n = residual_.size();
   std::vector<double> mu(n, 0), direction(n, 0), image(n, 0), diagonal(n, 0);
   each_particle([&](Index a, Body const& body) {
-    double const V = sums.fields.volume.at(a);
+    double const V = weight(sums, a);
     diagonal[at(a)] += V * body.own_weight;
     each_pair(sums, a, body.spacing, [&](Offset k, Neighbour const& b) { diagonal[at(b.slot)] += V * sums.s[at(k)]; });
   });

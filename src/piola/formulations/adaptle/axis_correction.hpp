@@ -40,6 +40,8 @@ class AxisCorrection {
 
   void set_fits(Sums const& sums);
   void set_residuals(Sums const& sums);
+  bool is_on_axis(Sums const& sums, Index a) const;
+  double weight(Sums const& sums, Index a) const;
   bool is_complete(Sums const& sums, Index a) const;
   std::array<double, 3> fitted(Sums const& sums, Index a, std::span<double const> mu) const;
   /// The change of the gradient of particle a at its pair k.

@@ -47,7 +47,7 @@ void add_rigid_contacts(System const& s, Index i, exec::ReproducibleSums<1>& sum
     double normal[3];
     BodyConstants const& b = s.body[s.body_of[i]];
     double const depth = 0.5 * b.spacing - distance_to<D>(s.rigid.pose[k], point_at(s.field.x, i, 3).data(), normal);
-    double const around = s.settings.axisymmetric ? circle(value_at(s.field.x, i)) : 1;
+    double const around = s.settings.axisymmetric ? circle(ring_radius(value_at(s.field.x, i), b.spacing)) : 1;
     double const energy = around * s.contact.scale * b.bulk_modulus * std::pow(b.spacing, D - 2) * depth * depth;
     if (depth > 0) sum.add(&energy);
   }

@@ -230,7 +230,8 @@ struct RigidSweep {
     if (!(distance < stand_off)) return;
     double k = 2 * scale * b.bulk_modulus;
     for (int c = 2; c < D; ++c) k *= b.spacing;
-    if (axisymmetric) return push_ring_off(i, s, circle(place[0]) * k, stand_off - distance, normal, sum);
+    if (axisymmetric)
+      return push_ring_off(i, s, circle(ring_radius(place[0], b.spacing)) * k, stand_off - distance, normal, sum);
     for (int c = 0; c < D; ++c) {
       double const f = k * (stand_off - distance) * normal[c];
       force.at(i, c) += f;
@@ -247,8 +248,10 @@ struct RigidSweep {
   /// k: of the ring, whose energy k depth^2/2 grows with its radius. On the shape only the axial force remains.
   PIOLA_FN void push_ring_off(Index i, RigidPoseAtHalfTime const& s, double k, double depth, double const* normal,
                               double* sum) const {
+    double const radius = x.at(i), least = 0.25 * body[body_of[i]].spacing;
+    double const inwards = radius > least ? 0.5 * k * depth * depth / radius : 0;
     for (int c = 0; c < 2; ++c) {
-      double const f = k * depth * normal[c] - (c == 0 ? 0.5 * k * depth * depth / x.at(i) : 0);
+      double const f = k * depth * normal[c] - (c == 0 ? inwards : 0);
       force.at(i, c) += f;
       sums.at(i, ContactSum::power) -= f * (v_half.at(i, c) - s.velocity[c]);
       power_on_bodies[i] += f * s.velocity[c];

@@ -17,7 +17,7 @@ struct ForcePairs {
                         kernel_part = EquationSet{Form}.has_kernel_part();
   static constexpr int Q = 0, heat = D, mu = D + 1, sums = viscous ? mu + 1 : D, extrema = viscous ? 1 : 0;
   static constexpr int first_component = viscous ? R::u : R::X, last_component = R::values(EquationSet{Form});
-  double alpha, beta, h, rho0, c;
+  double alpha, beta, h, rho0, c, spacing;
   bool mixed;  ///< total-Lagrangian particles also receive the viscosity of Eulerian ones
   bool axisymmetric;
 
@@ -59,6 +59,12 @@ struct ForcePairs {
   }
 
  private:
+  /// Length of both circles.
+  template <class V>
+  PIOLA_INLINE_FN Lanes around(Own<V> const& own, PairGeometry<D, Lanes> const& g) const {
+    return circle(ring_radius(own.radius, spacing) + ring_radius(own.radius + g.r[0], spacing));
+  }
+
   template <class V, class Fields>
   PIOLA_INLINE_FN void add_viscosity(Lanes (&sum)[sums], Own<V> const& own, PairGeometry<D, Lanes> const& g,
                                      Fields const& f) const {
@@ -78,7 +84,7 @@ struct ForcePairs {
     sum[mu] = minimum(sum[mu], speed);
     Lanes const size = maximum(there, -1.0 * there);
     Lanes weight = (-0.5 * rho0) * (f(R::volume) * plain * (0.5 * (size + here)));
-    if (D == 2 && axisymmetric) weight = weight * (0.5 * circle(own.radius + magnitude(own.radius + g.r[0])));
+    if (D == 2 && axisymmetric) weight = weight * (0.5 * around(own, g));
     Lanes power = Lanes(0.0);
     for (int p = 0; p < D; ++p) {
       Lanes mine = Lanes(0.0), other = Lanes(0.0);
@@ -130,8 +136,8 @@ struct MaterialForces {
         force(write(s.field.force)),
         heat(write(s.field.heat)),
         compression(write(s.field.compression)),
-        pairs{b.alpha, b.beta, b.reference_h, b.rho0, b.c, s.settings.equations.has_mixed_viscosity(), b.axisymmetric} {
-  }
+        pairs{b.alpha,       b.beta, b.reference_h, b.rho0, b.c, b.spacing, s.settings.equations.has_mixed_viscosity(),
+              b.axisymmetric} {}
 
   /// Whether a particle takes part.
   PIOLA_FN bool operator()(Index i) const {
@@ -193,7 +199,7 @@ struct MaterialForces {
       Lanes const s = load_gradients(gradients_of<Form>(table) + k);
       Lanes share = select(f[R::viscosity] > 0.0, f[R::volume] * s, Lanes(0.0));
       if (!any(share > 0.0)) continue;
-      if (body.axisymmetric) share = share * circle(magnitude(f[R::X]));
+      if (body.axisymmetric) share = share * circle(ring_radius(f[R::X], body.spacing));
       for (int q = 0; q < D; ++q) {
         Lanes const r = share * (f[R::X + q] - own[R::X + q]);
         for (int p = 0; p < D; ++p)

@@ -13,7 +13,8 @@ struct WriteRecords {
   Settings settings;
   HalfVolume half;
   OwnComponents radial_stress;
-  Components x, v_half, volume, viscosity, active, S_half, pressure, rho_half, volume_half, F_rate, gap, K, N,
+  double smallest_radius;
+  Components X, x, v_half, volume, viscosity, active, S_half, pressure, rho_half, volume_half, F_rate, gap, K, N,
       gradient_mean;
   SpatialTable spatial;    ///< records null: not needed
   MaterialTable material;  ///< records null: not needed
@@ -23,6 +24,8 @@ struct WriteRecords {
         settings(s.settings),
         half(s, of, table, dt),
         radial_stress(write(s.field.radial_stress)),
+        smallest_radius(s.smallest_radius),
+        X(read(s.field.X)),
         x(read(s.field.x)),
         v_half(read(s.field.v_half)),
         volume(read(s.field.volume)),
@@ -48,6 +51,9 @@ struct WriteRecords {
       SymMat<D, Lanes> stress;
       for (int a = 0; a < D; ++a)
         for (int b = a; b < D; ++b) stress(a, b) = a == b ? S(a, b) - p : S(a, b);
+      // On the axis, where the stretch of the circle is that of the radius, one force serves both.
+      if (D == 2 && settings.axisymmetric)
+        stress(0, 0) = stress(0, 0) + select(X.scalar<Lanes>(i) < smallest_radius, S(2, 2) - p, Lanes(0.0));
       Here const here{half.phi.scalar<Lanes>(i),    active.scalar<Lanes>(i), rho_half.scalar<Lanes>(i),
                       volume_half.scalar<Lanes>(i), half.thickness_at(i),    stress};
       if (spatial.record != nullptr) write_spatial(g, here);

@@ -36,13 +36,14 @@ struct Kick {
   double dt;
   System s;  ///< optional data: results of spatial sums, supports, loads
   MaterialTable material;
-  Components mass, force, heat, compression, phi, F, F_rate, v_half, S_half, pressure, rho_half;
+  Components X, mass, force, heat, compression, phi, F, F_rate, v_half, S_half, pressure, rho_half;
   OwnComponents x, v, a;
 
   Kick(System const& system, MaterialTable const& table, double step)
       : dt(step),
         s(system),
         material(table),
+        X(read(s.field.X)),
         mass(read(s.field.mass)),
         force(read(s.field.force)),
         heat(read(s.field.heat)),
@@ -84,7 +85,7 @@ struct Kick {
     for (int c = 0; c < D; ++c) {
       Lanes const total = force.data != nullptr ? spatial[c] + force.scalar<Lanes>(i, c) : spatial[c];
       Lanes rate = total * per_mass;
-      if (c == 0 && s.settings.axisymmetric) rate = rate - hoop_pull(i);
+      if (c == 0 && s.settings.axisymmetric) rate = select(is_on_axis(i), Lanes(0.0), rate - hoop_pull(i));
       store(rate, acceleration[c]);
       store(v.seen().scalar<Lanes>(i, c) + dt * rate, after[c]);
     }
@@ -141,6 +142,7 @@ struct Kick {
   }
 
  public:
+  PIOLA_FN auto is_on_axis(Index i) const { return X.scalar<Lanes>(i) < s.smallest_radius; }
   /// Radii at half time, never zero [m].
   PIOLA_FN Lanes radius_at(Index i) const {
     double radius[lane_count];
@@ -161,7 +163,7 @@ struct Kick {
       for (int c = 0; c < 9; ++c)
         L.c[c] = select(lagrangian, blend * L.c[c] + (1.0 - blend) * of_material.c[c], L.c[c]);
     }
-    if (s.settings.axisymmetric) L(2, 2) = v_half.scalar<Lanes>(i) / radius_at(i);
+    if (s.settings.axisymmetric) L(2, 2) = select(is_on_axis(i), L(0, 0), v_half.scalar<Lanes>(i) / radius_at(i));
     for (int c = 0; c < 9; ++c) store(L.c[c], scratch.L[c] + (i - scratch.first));
   }
 };

@@ -8,7 +8,7 @@ namespace piola::adaptle::inline PIOLA_BACKEND {
 
 /// Constants of the pairs of one body.
 struct PairConstants {
-  double damping, stiffness, rho0, alpha_c, beta, h, core;
+  double damping, stiffness, rho0, alpha_c, beta, h, core, spacing;
   bool axisymmetric;
   PIOLA_FN explicit PairConstants(BodyConstants const& b)
       : damping(damping_of(b)),
@@ -18,6 +18,7 @@ struct PairConstants {
         beta(b.beta),
         h(b.reference_h),
         core(0.01 * h * h),
+        spacing(b.spacing),
         axisymmetric(b.axisymmetric) {}
 };
 
@@ -98,8 +99,8 @@ struct DeformPairs {
  private:
   /// The weight of a force that both own: with the mean of their circles instead of the own one.
   template <class V>
-  PIOLA_INLINE_FN static Lanes both_rings(Own<V> const& own, PairGeometry<D, Lanes> const& g, Lanes const& weight) {
-    return 0.5 * weight * (1.0 + magnitude(own.radius + g.r[0]) / own.radius);
+  PIOLA_INLINE_FN Lanes both_rings(Own<V> const& own, PairGeometry<D, Lanes> const& g, Lanes const& weight) const {
+    return 0.5 * weight * (1.0 + ring_radius(own.radius + g.r[0], b.spacing) / ring_radius(own.radius, b.spacing));
   }
 
   template <class V>
@@ -129,6 +130,7 @@ struct Deform {
   MaterialTable table;
   Index particles;
   AxisGradients near_axis;
+  double smallest_radius;
   Components phi, active, X, x, volume, thickness_half, K, N, gradient_mean;
   OwnComponents F, F_rate, gap, force, heat, hourglass, compression;
   S pairs;
@@ -138,6 +140,7 @@ struct Deform {
         particles(s.particles),
         near_axis{of_body.axis,    s.particles,          read(s.field.X),
                   read(s.field.x), read(s.field.v_half), read(s.field.active)},
+        smallest_radius(s.smallest_radius),
         phi(read(s.field.phi)),
         active(read(s.field.active)),
         X(read(s.field.X)),
@@ -169,7 +172,7 @@ struct Deform {
     Mat<3, Lanes> gradient = identity<3, Lanes>(), rate = 0.0 * gradient;
     set_gradients(i, a, gradient, rate);
     if constexpr (D == 2)
-      if (near_axis.table.begin != nullptr) close(g, marks, gradient, rate);
+      if (b.axisymmetric) turn_around_axis(g, marks, gradient, rate);
     for (int c = 0; c < 9; ++c) {
       F.put(g, select(wanted, gradient.c[c], F.seen().template scalar<Lanes>(i, c)), c);
       F_rate.put(g, select(wanted, rate.c[c], F_rate.seen().template scalar<Lanes>(i, c)), c);
@@ -200,13 +203,18 @@ struct Deform {
   }
 
  private:
-  PIOLA_FN void close(Group g, Lanes const& marks, Mat<3, Lanes>& gradient, Mat<3, Lanes>& rate) const {
-    Lanes u[2], v[2];
-    near_axis(g, marks, u, v);
-    for (int p = 0; p < 2; ++p) {
-      gradient(p, 0) += u[p];
-      rate(p, 0) += v[p];
+  /// Adds what axisymmetric bodies have more: the correction near the axis, and the stretch of the circle.
+  PIOLA_FN void turn_around_axis(Group g, Lanes const& marks, Mat<3, Lanes>& gradient, Mat<3, Lanes>& rate) const {
+    if (near_axis.table.begin != nullptr) {
+      Lanes u[2], v[2];
+      near_axis(g, marks, u, v);
+      for (int p = 0; p < 2; ++p) {
+        gradient(p, 0) += u[p];
+        rate(p, 0) += v[p];
+      }
     }
+    Lanes const from = X.scalar<Lanes>(g.first);
+    gradient(2, 2) = select(from < smallest_radius, gradient(0, 0), x.scalar<Lanes>(g.first) / from);
   }
 
   PIOLA_FN void set_gradients(Index i, Lanes const (&a)[S::sums], Mat<3, Lanes>& gradient, Mat<3, Lanes>& rate) const {
@@ -225,9 +233,7 @@ struct Deform {
           rate(p, q) += v * k;
         }
       }
-    if constexpr (D < 3)
-      gradient(2, 2) =
-          pairs.b.axisymmetric ? x.scalar<Lanes>(i) / X.scalar<Lanes>(i) : thickness_half.scalar_or<Lanes>(i, 1.0);
+    if constexpr (D < 3) gradient(2, 2) = thickness_half.scalar_or<Lanes>(i, 1.0);
   }
 
   /// Removes neighbours that are not total-Lagrangian from damping and springs, and computes their largest distance

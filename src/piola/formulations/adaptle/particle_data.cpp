@@ -185,7 +185,8 @@ void ParticleData::set_reference() {
     if (!Fields::holds(fields().area)) return;
     Index const image = system_.image_of(slot);
     for (int c = 0; c < 3; ++c) fields().X.at(image, c) = c == 0 ? -set_.X[i][0] : set_.X[i][at(c)];
-    fields().area.at(slot) = fields().area.at(image) = set_.volume[i] / (2 * std::numbers::pi * set_.X[i][0]);
+    fields().area.at(slot) = fields().area.at(image) =
+        set_.volume[i] / (2 * std::numbers::pi * ring_radius(set_.X[i][0], body_of(slot).spacing));
   };
   for (std::size_t b = 0; b < body_.size(); ++b)
     for (Index i = system_.part[b].first; i < system_.part[b].last; ++i) {

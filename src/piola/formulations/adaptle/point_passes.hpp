@@ -16,6 +16,7 @@ template <int D>
 struct Drift {
   double dt;
   bool axisymmetric;
+  double smallest_radius;
   Components X, weight, a, viscosity, phi, active, thickness, thickness_rate;
   OwnComponents x, v, v_half, thickness_half, force, heat, hourglass, compression, contact;
   double* position;
@@ -26,6 +27,7 @@ struct Drift {
   Drift(System const& s, MaterialTable const& table, double step)
       : dt(step),
         axisymmetric(s.settings.axisymmetric),
+        smallest_radius(s.smallest_radius),
         X(read(s.field.X)),
         weight(read(s.field.weight())),
         a(read(s.field.a)),
@@ -93,7 +95,8 @@ struct Drift {
   /// At half time. That of total-Lagrangian rings is known.
   PIOLA_FN Lanes thickness_at(Index i, double step, Lanes const& radius) const {
     Lanes const predicted = thickness.scalar<Lanes>(i) + step * thickness_rate.scalar<Lanes>(i);
-    return axisymmetric ? select(phi.scalar<Lanes>(i) > 0.0, predicted, circle(radius)) : predicted;
+    return axisymmetric ? select(phi.scalar<Lanes>(i) > 0.0, predicted, circle(maximum(radius, Lanes(smallest_radius))))
+                        : predicted;
   }
 
   PIOLA_FN void report(Group g, double const (&places)[3][lane_count]) const {

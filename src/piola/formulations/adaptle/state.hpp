@@ -26,6 +26,14 @@ enum class ContactLaw {
   as_published  ///< as kernel, with eps = K V_a V_b
 };
 
+/// The radius of a ring for its section and for forces between rings: of rings at the axis that of the middle of their
+/// section. spacing: dp.
+template <class T>
+PIOLA_INLINE_FN T ring_radius(T const& radius, double spacing) {
+  T const least(0.25 * spacing);
+  return maximum(maximum(radius, -radius), least);
+}
+
 /// Index in the lists of reference neighbours: tens of millions of particles have more pairs than an Index can count.
 using Offset = std::int64_t;
 
@@ -228,7 +236,7 @@ struct System {
   Fields field;
   Correction* correction = nullptr;  ///< spatial
   double* position = nullptr;        ///< at half time, 3 per slot: input of the cell grid
-  double smallest_radius = 0;        ///< by which hoop terms divide at least [m]
+  double smallest_radius = 0;        ///< particles nearer to the axis are on it at the start [m]
   DescriptionTable description;
   SpatialTable spatial;
   MaterialTable material;
