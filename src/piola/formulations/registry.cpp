@@ -48,11 +48,17 @@ bool has_scattered(ParticleSet const& particles) {
                      [](Body const& body) { return body.off_lattice; });
 }
 
+/// The axis of axisymmetric bodies is none.
+bool has_mirrors(Assembly const& assembly) {
+  return std::any_of(assembly.mirrors.begin(), assembly.mirrors.end(),
+                     [&](MirrorPlane const& mirror) { return !assembly.particles.axisymmetric || mirror.axis != 0; });
+}
+
 /// Rejects features of a case that the formulation does not support.
 void check_abilities(FormulationInfo const& info, Assembly const& assembly) {
   Problems problems;
   if (!info.cracks && !assembly.particles.cracks.empty()) problems.add({}, refusal(info, "cracks"));
-  if (!info.mirrors && !assembly.mirrors.empty()) problems.add({}, refusal(info, "mirrors"));
+  if (!info.mirrors && has_mirrors(assembly)) problems.add({}, refusal(info, "mirrors"));
   if (!info.parts && !assembly.parts.empty()) problems.add({}, refusal(info, "parts"));
   if (!info.axisymmetric && assembly.particles.axisymmetric) problems.add({}, refusal(info, "axisymmetric bodies"));
   if (!info.off_lattice && has_scattered(assembly.particles)) problems.add({}, refusal(info, "rings"));

@@ -26,7 +26,7 @@ void check_formulation(BodySpec const& body, Problems& problems) {
   if (!assumption.empty() && assumption != "as_dimension")
     problems.add(place, axisymmetric +
                             "where the third direction is that of the circle: formulation.assumption has no "
-                            "meaning (allowed: as_dimension) - leave it out");
+                            "meaning (allowed: its default) - leave it out");
   if (word("pressure") == "implicit")
     problems.add(place, axisymmetric + "and formulation.pressure is \"implicit\" (allowed: explicit) - leave it out");
   if (body.initial_deformation_gradient)

@@ -47,7 +47,8 @@ void add_rigid_contacts(System const& s, Index i, exec::ReproducibleSums<1>& sum
     double normal[3];
     BodyConstants const& b = s.body[s.body_of[i]];
     double const depth = 0.5 * b.spacing - distance_to<D>(s.rigid.pose[k], point_at(s.field.x, i, 3).data(), normal);
-    double const energy = s.contact.scale * b.bulk_modulus * std::pow(b.spacing, D - 2) * depth * depth;
+    double const around = s.settings.axisymmetric ? circle(ring_radius(value_at(s.field.x, i), b.spacing)) : 1;
+    double const energy = around * s.contact.scale * b.bulk_modulus * std::pow(b.spacing, D - 2) * depth * depth;
     if (depth > 0) sum.add(&energy);
   }
 }
@@ -64,7 +65,9 @@ exec::ReproducibleSums<1> energy_of_pairs(System const& s, Counts const& counts)
       double square = 0;
       for (int c = 0; c < D; ++c)
         square += std::pow(s.position[std::ptrdiff_t{3} * i + c] - s.position[std::ptrdiff_t{3} * j + c], 2);
-      double const half = 0.5 * potential<D>(s, i, j, std::sqrt(square));
+      double half = 0.5 * potential<D>(s, i, j, std::sqrt(square));
+      if (s.settings.axisymmetric)
+        half *= 0.5 * circle(s.position[std::ptrdiff_t{3} * i] + std::fabs(s.position[std::ptrdiff_t{3} * j]));
       sum.add(&half);
     }
   }
@@ -74,7 +77,7 @@ exec::ReproducibleSums<1> energy_of_pairs(System const& s, Counts const& counts)
 template <int D>
 exec::ReproducibleSums<1> energy_of_contacts(System const& s) {
   exec::ReproducibleSums<1> sum = energy_of_pairs<D>(
-      s, [&](KernelContactPair const& pair, Index i, Index j) { return s.contact.acts(pair, i, j); });
+      s, [&](KernelContactPair const& pair, Index i, Index j) { return s.contact.acts(pair, i, s.source_of(j)); });
   for (Range const& own : s.local())
     for (Index i = own.first; i < own.last; ++i) add_rigid_contacts<D>(s, i, sum);
   return sum;
@@ -121,7 +124,8 @@ double contact_energy(System const& system) {
 }
 
 double opened_energy(System const& system, std::vector<std::uint8_t> const& lost_before) {
-  auto const opened = [&](KernelContactPair const& pair, Index i, Index j) {
+  auto const opened = [&](KernelContactPair const& pair, Index i, Index image) {
+    Index const j = system.source_of(image);
     auto const before = [&](Index k) { return lost_before[static_cast<std::size_t>(k)] != 0; };
     return pair.surfaces && system.contact.acts(pair, i, j) && !before(i) && !before(j);
   };

@@ -11,6 +11,7 @@ struct ContactForce {
   double force = 0;      ///< repulsion [N]
   double stiffness = 0;  ///< bound of its derivative [N/m]
   double overlap = 0;    ///< 1 - r / dp
+  double energy = 0;     ///< U [J]
 };
 
 /// F = -dU/dr, U = eps (W(r)/W(dp))^n: eqs. (15), (16) with constant coefficient.
@@ -24,13 +25,14 @@ PIOLA_FN ContactForce kernel_contact(KernelContactPair const& p, double r) {
   double const power = std::pow(w, exponent - 2);
   double const bend = 3 * kernel.norm * kernel.inverse_h * kernel.inverse_h / reference;
   return {p.eps * exponent * power * w * slope, p.eps * exponent * power * ((exponent - 1) * slope * slope + w * bend),
-          1 - r / p.dp};
+          1 - r / p.dp, p.eps * power * w * w};
 }
 
 /// F = eps (dp - r) / dp^2 below dp: a linear spring with the stiffness of the material.
 PIOLA_FN ContactForce linear_contact(KernelContactPair const& p, double r) {
   if (!(r < p.dp)) return {};
-  return {p.eps * (p.dp - r) / (p.dp * p.dp), p.eps / (p.dp * p.dp), 1 - r / p.dp};
+  return {p.eps * (p.dp - r) / (p.dp * p.dp), p.eps / (p.dp * p.dp), 1 - r / p.dp,
+          0.5 * p.eps * (1 - r / p.dp) * (1 - r / p.dp)};
 }
 
 template <int D>
@@ -42,6 +44,8 @@ struct ContactSweep {
   int bodies;
   Components x, v_half, volume_half;
   OwnComponents force, sums;  ///< sums: in the order of ContactSum
+  bool axisymmetric;
+  Index particles;
 
   PIOLA_FN void operator()(Range block, Index) const {
     for (Index t = block.first; t < block.last; ++t) visit(t);
@@ -74,15 +78,16 @@ struct ContactSweep {
     for (Index k = 0; k < table.length[t]; ++k) {
       Index const j = slot[row[k]];
       KernelContactPair const& pair = table.pair[body_of[i] * bodies + body_of[j]];
-      if (!table.acts(pair, i, j)) continue;
+      if (!table.acts(pair, i, source_of(j, particles))) continue;
       double square = 0;
       for (int c = 0; c < D; ++c) {
         double const d = x.at(i, c) - x.at(j, c);
         square += d * d;
       }
       double const r = std::sqrt(square);
-      ContactForce const f = force_of(pair, i, j, r);
+      ContactForce f = force_of(pair, i, j, r);
       if (!(f.stiffness > 0)) continue;
+      if (axisymmetric) act_on_rings(i, j, f);
       raise(i, ContactSum::closing, approach(i, j, r) * sharpness(pair) / pair.dp);
       double power = 0;
       for (int c = 0; c < D; ++c) {
@@ -94,6 +99,14 @@ struct ContactSweep {
       sums.at(i, ContactSum::stiffness) += f.stiffness;
       raise(i, ContactSum::overlap, f.overlap);
     }
+  }
+  /// U is per unit length of the mean of both circles, pi (r_a + r_b), and so acts on the radii.
+  PIOLA_FN void act_on_rings(Index i, Index j, ContactForce& f) const {
+    double const around = 0.5 * circle(x.at(i) + std::fabs(x.at(j))), inwards = 0.5 * circle(f.energy);
+    f.force *= around;
+    f.stiffness *= around;
+    force.at(i) -= inwards;
+    sums.at(i, ContactSum::power) += inwards * v_half.at(i);
   }
   PIOLA_FN void raise(Index i, int which, double value) const { sums.at(i, which) = maximum(sums.at(i, which), value); }
 };
@@ -192,6 +205,7 @@ struct RigidSweep {
   OwnComponents force, sums;  ///< sums: in the order of ContactSum
   double* power_on_bodies;    ///< per slot: power of the moving shapes [W]
   double* action;             ///< [block][shape]: force [N] and moment about the origin [N m]
+  bool axisymmetric;
 
   PIOLA_FN void operator()(Range block, Index number) const {
     double* const of_block = action + static_cast<std::ptrdiff_t>(number) * shapes * 6;
@@ -216,6 +230,8 @@ struct RigidSweep {
     if (!(distance < stand_off)) return;
     double k = 2 * scale * b.bulk_modulus;
     for (int c = 2; c < D; ++c) k *= b.spacing;
+    if (axisymmetric)
+      return push_ring_off(i, s, circle(ring_radius(place[0], b.spacing)) * k, stand_off - distance, normal, sum);
     for (int c = 0; c < D; ++c) {
       double const f = k * (stand_off - distance) * normal[c];
       force.at(i, c) += f;
@@ -227,6 +243,22 @@ struct RigidSweep {
     }
     sums.at(i, ContactSum::stiffness) += k;
     raise(i, ContactSum::overlap, 1 - distance / stand_off);
+  }
+
+  /// k: of the ring, whose energy k depth^2/2 grows with its radius. On the shape only the axial force remains.
+  PIOLA_FN void push_ring_off(Index i, RigidPoseAtHalfTime const& s, double k, double depth, double const* normal,
+                              double* sum) const {
+    double const radius = x.at(i), least = 0.25 * body[body_of[i]].spacing;
+    double const inwards = radius > least ? 0.5 * k * depth * depth / radius : 0;
+    for (int c = 0; c < 2; ++c) {
+      double const f = k * depth * normal[c] - (c == 0 ? inwards : 0);
+      force.at(i, c) += f;
+      sums.at(i, ContactSum::power) -= f * (v_half.at(i, c) - s.velocity[c]);
+      power_on_bodies[i] += f * s.velocity[c];
+      if (c == 1) sum[c] += f;
+    }
+    sums.at(i, ContactSum::stiffness) += k;
+    raise(i, ContactSum::overlap, 2 * depth / body[body_of[i]].spacing);
   }
   PIOLA_FN void raise(Index i, int which, double value) const { sums.at(i, which) = maximum(sums.at(i, which), value); }
 };

@@ -8,7 +8,8 @@ namespace piola::adaptle {
 struct FieldNeeds {
   bool lagrangian = false;    ///< some particle has a deformation gradient
   bool kernel_sums = false;   ///< some particle is lagrangian, and its sums store the kernel
-  bool plane_stress = false;  ///< variable thickness
+  bool thickness = false;     ///< in plane stress, and of axisymmetric bodies
+  bool axisymmetric = false;  ///< bodies of revolution
   bool touching = false;      ///< several bodies, or rigid shapes
 };
 
@@ -39,9 +40,13 @@ struct Fields {
 
   /// Whether the case has the field.
   static bool holds(FieldRef const& field) { return field.data != nullptr; }
+  /// Weight of a neighbour in sums over reference neighbours: the planar volume.
+  ParticleField const& weight() const { return holds(area) ? area : volume; }
 
   ParticleField X{owner, "ReferencePosition", "m", 3, Role::reference};
-  ParticleField volume{owner, "Volume", "m3", 1, Role::reference};
+  ParticleField volume{owner, "Volume", "m3", 1, Role::reference};  ///< of axisymmetric bodies that of the ring
+  /// Section of a ring: volume over 2 pi R.
+  ParticleField area{owner, "Area", "m2", 1, Role::reference, has.axisymmetric};
   ParticleField mass{owner, "Mass", "kg", 1, Role::reference};
 
   ParticleField x{owner, "Position", "m", 3, Role::evolved};
@@ -53,8 +58,9 @@ struct Fields {
   ParticleField temperature{owner, "Temperature", "K", 1, Role::evolved};
   ParticleField damage{owner, "Damage", "1", 1, Role::evolved};
   ParticleField plastic_work{owner, "PlasticWork", "J/m3", 1, Role::evolved};
-  /// In plane stress, over the initial one.
-  ParticleField thickness{owner, "Thickness", "1", 1, Role::evolved, has.plane_stress};
+  /// Volume over that in the plane: in plane stress, over the initial one; of axisymmetric bodies the length of the
+  /// circle [m].
+  ParticleField thickness{owner, "Thickness", "1", 1, Role::evolved, has.thickness};
   /// Factor on alpha and beta of the switch of the viscosity.
   ParticleField viscosity{owner, "ViscosityFactor", "1", 1, Role::evolved};
   /// 0: total-Lagrangian, 1: Eulerian, between: blended.
@@ -70,14 +76,14 @@ struct Fields {
   ParticleField S_rate{owner, "StressDeviatorRate", "Pa/s", 6, Role::evolved};
   ParticleField rho_rate{owner, "DensityRate", "kg/(m3 s)", 1, Role::evolved};
   ParticleField energy_rate{owner, "InternalEnergyRate", "W", 1, Role::evolved};
-  ParticleField thickness_rate{owner, "ThicknessRate", "1/s", 1, Role::evolved, has.plane_stress};
+  ParticleField thickness_rate{owner, "ThicknessRate", "1/s", 1, Role::evolved, has.thickness};
   /// Von Mises stress at the end of the last plastic step; 0: the next prediction evaluates the law.
   ParticleField flow{owner, "FlowStress", "Pa", 1, Role::evolved};
 
   // Half time.
   ParticleField v_half{owner, "VelocityOfHalfTime", "m/s", 3, Role::derived};
   ParticleField S_half{owner, "StressDeviatorOfHalfTime", "Pa", 6, Role::derived};
-  ParticleField thickness_half{owner, "ThicknessOfHalfTime", "1", 1, Role::derived, has.plane_stress};
+  ParticleField thickness_half{owner, "ThicknessOfHalfTime", "1", 1, Role::derived, has.thickness};
   ParticleField volume_half{owner, "VolumeOfHalfTime", "m3", 1, Role::derived};
   ParticleField rho_half{owner, "DensityOfHalfTime", "kg/m3", 1, Role::derived};
   ParticleField pressure{owner, "PressureOfHalfTime", "Pa", 1, Role::derived};  ///< positive in compression
@@ -96,6 +102,9 @@ struct Fields {
   ParticleField compression{owner, "FastestCompression", "m/s", 1, Role::derived, has.lagrangian};
   /// In the order of ContactSum.
   ParticleField contact{owner, "ContactSums", "1", ContactSum::size, Role::derived, has.touching};
+
+  /// (1 - phi) V0 P of axisymmetric bodies, its column of the radius.
+  ParticleField radial_stress{owner, "RadialStress", "J", 2, Role::derived, has.axisymmetric&& has.lagrangian};
 
   // Constants of the sums over reference neighbours, with s = -W'(r)/r and r = X_b - X_a.
   /// Inverse of sum_b V0_b s r (x) r, symmetric, of D dimensions; not for the published equations.

@@ -19,7 +19,10 @@ PIOLA_FN V equivalent_strain(Mat<3, V> const& F, SymMat<3, V> const& stress, Bod
       for (int k = 0; k < D; ++k) sum += F(k, i) * F(k, j);
       E(i, j) = 0.5 * sum;
     }
-  if (D == 2) E(2, 2) = -b.poisson / b.young * (stress.c[0] + stress.c[1]);
+  if (D == 2 && b.axisymmetric)
+    E(2, 2) = 0.5 * (F(2, 2) * F(2, 2) - 1.0);
+  else if (D == 2)
+    E(2, 2) = -b.poisson / b.young * (stress.c[0] + stress.c[1]);
   V const mean = (E.c[0] + E.c[1] + E.c[2]) / 3.0;
   V square(0.0);
   for (int c = 0; c < 6; ++c) square += c < 3 ? (E.c[c] - mean) * (E.c[c] - mean) : 2.0 * E.c[c] * E.c[c];
@@ -34,7 +37,9 @@ struct StepEnd {
   bool damages;  ///< whether the law has damage
   double dt;
   MaterialTable material;
-  Components mass, S, rho, energy, v, a, phi, active, damage, S_half, pressure, rho_half, c, F, gap, hourglass, contact;
+  FilledKernel filled;
+  Components x, thickness, mass, S, rho, energy, v, a, phi, active, damage, S_half, pressure, rho_half, c, F, gap,
+      hourglass, contact;
   OwnComponents viscosity;
   double const* rigid_power;
   std::int8_t* conversion_request;
@@ -46,6 +51,9 @@ struct StepEnd {
         damages(law_damages),
         dt(step),
         material(table),
+        filled(s, of),
+        x(read(s.field.x)),
+        thickness(read(s.field.thickness)),
         mass(read(s.field.mass)),
         S(read(s.field.S)),
         rho(read(s.field.rho)),
@@ -88,6 +96,7 @@ struct StepEnd {
       if (rigid_power != nullptr) add(BlockMeasures::rigid, load<Lanes>(rigid_power + i));
       Mat<3, Lanes> inverse_F = identity<3, Lanes>();
       if (material.used && any(phi.scalar<Lanes>(i) < 1.0)) inverse_F = inverse(F.matrix<Lanes>(i));
+      if (settings.axisymmetric) inverse_F(2, 2) = Lanes(1.0);  // lengths in the section
       Lanes const step = limit(g, scratch, L, inverse_F);
       least = StepLimit::shorter(least, select(real, step, Lanes(1e300)));
       m[BlockMeasures::conversion_requests] += make_requests(g, inverse_F);
@@ -122,7 +131,9 @@ struct StepEnd {
   PIOLA_FN Lanes limit(Group g, BlockScratch const& scratch, Mat<3, Lanes> const& L,
                        Mat<3, Lanes> const& inverse_F) const {
     Index const i = g.first;
-    Lanes const one(1.0), none(0.0), divergence = magnitude(trace(L));
+    Lanes const one(1.0), none(0.0);
+    Lanes divergence = magnitude(trace(L));
+    if (settings.axisymmetric) divergence = select(fills_kernel(i), none, divergence);
     auto const lagrangian = phi.scalar<Lanes>(i) < 1.0;
     Vec<3, Lanes> const acceleration = a.vector<3, Lanes>(i);
     bool const touching = contact.data != nullptr;
@@ -139,6 +150,14 @@ struct StepEnd {
   }
 
  private:
+  /// Whether a limit of FilledKernel holds for a ring, which then changes no volume.
+  PIOLA_FN auto fills_kernel(Index i) const {
+    constexpr double rounding = 1 + 1e-12;
+    Lanes const density = rho.scalar<Lanes>(i);
+    return phi.scalar<Lanes>(i) > 0.0 && (density <= rounding * filled.least_density(i, x.scalar<Lanes>(i)) ||
+                                          thickness.scalar<Lanes>(i) <= rounding * filled.least_thickness(i, density));
+  }
+
   /// Sets conversion requests: 1: with the neighbours, 2: alone, 0: none. Returns the number of requests.
   PIOLA_FN int make_requests(Group g, Mat<3, Lanes> const& inverse_F) const {
     Lanes const blend = phi.scalar<Lanes>(g.first);

@@ -17,13 +17,14 @@ struct ForcePairs {
                         kernel_part = EquationSet{Form}.has_kernel_part();
   static constexpr int Q = 0, heat = D, mu = D + 1, sums = viscous ? mu + 1 : D, extrema = viscous ? 1 : 0;
   static constexpr int first_component = viscous ? R::u : R::X, last_component = R::values(EquationSet{Form});
-  double alpha, beta, h, rho0, c;
+  double alpha, beta, h, rho0, c, spacing;
   bool mixed;  ///< total-Lagrangian particles also receive the viscosity of Eulerian ones
+  bool axisymmetric;
 
   template <class V>
   struct Own {
     Vec<D, V> u, v, n;
-    V N[D * D], inverse_J, viscosity;
+    V N[D * D], inverse_J, viscosity, radius;
     bool feels;  ///< whether there is viscosity
   };
   template <class V>
@@ -38,6 +39,7 @@ struct ForcePairs {
       for (int k = 0; k < D * D; ++k) own.N[k] = load_local<V>(p, R::N + k);
       own.inverse_J = load_local<V>(p, R::inverse_J);
       own.viscosity = load_local<V>(p, R::viscosity);
+      own.radius = load_local<V>(p, R::X);
       own.feels = any(own.viscosity > 0.0);
     }
     return own;
@@ -57,6 +59,12 @@ struct ForcePairs {
   }
 
  private:
+  /// Length of both circles.
+  template <class V>
+  PIOLA_INLINE_FN Lanes around(Own<V> const& own, PairGeometry<D, Lanes> const& g) const {
+    return circle(ring_radius(own.radius, spacing) + ring_radius(own.radius + g.r[0], spacing));
+  }
+
   template <class V, class Fields>
   PIOLA_INLINE_FN void add_viscosity(Lanes (&sum)[sums], Own<V> const& own, PairGeometry<D, Lanes> const& g,
                                      Fields const& f) const {
@@ -75,7 +83,8 @@ struct ForcePairs {
         viscous_pair(alpha, beta, h, closing, dot(x, x), Lanes(2 * c), rho0 * (f(R::inverse_J) + own.inverse_J));
     sum[mu] = minimum(sum[mu], speed);
     Lanes const size = maximum(there, -1.0 * there);
-    Lanes const weight = (-0.5 * rho0) * (f(R::volume) * plain * (0.5 * (size + here)));
+    Lanes weight = (-0.5 * rho0) * (f(R::volume) * plain * (0.5 * (size + here)));
+    if (D == 2 && axisymmetric) weight = weight * (0.5 * around(own, g));
     Lanes power = Lanes(0.0);
     for (int p = 0; p < D; ++p) {
       Lanes mine = Lanes(0.0), other = Lanes(0.0);
@@ -106,7 +115,8 @@ struct MaterialForces {
   Index particles;
   BodyConstants body;
   bool on_eulerian;  ///< Eulerian particles receive reactions
-  Components phi, active, volume, F, F_rate, gradient_sum, kernel_sum;
+  AxisForces near_axis;
+  Components phi, active, weight, F, F_rate, gradient_sum, kernel_sum;
   OwnComponents force, heat, compression;
   S pairs;
 
@@ -115,9 +125,10 @@ struct MaterialForces {
         particles(s.particles),
         body(b),
         on_eulerian(s.settings.equations.has_reactions()),
+        near_axis{of_body.axis, s.particles, read(s.field.radial_stress), read(s.field.active)},
         phi(read(s.field.phi)),
         active(read(s.field.active)),
-        volume(read(s.field.volume)),
+        weight(read(s.field.weight())),
         F(read(s.field.F)),
         F_rate(read(s.field.F_rate)),
         gradient_sum(read(s.field.gradient_sum)),
@@ -125,7 +136,8 @@ struct MaterialForces {
         force(write(s.field.force)),
         heat(write(s.field.heat)),
         compression(write(s.field.compression)),
-        pairs{b.alpha, b.beta, b.reference_h, b.rho0, b.c, s.settings.equations.has_mixed_viscosity()} {}
+        pairs{b.alpha,       b.beta, b.reference_h, b.rho0, b.c, b.spacing, s.settings.equations.has_mixed_viscosity(),
+              b.axisymmetric} {}
 
   /// Whether a particle takes part.
   PIOLA_FN bool operator()(Index i) const {
@@ -139,13 +151,19 @@ struct MaterialForces {
     load_own_records<D>(table, EquationSet{Form}, g, R::A, own);
     hourglass_of_neighbours(g, marks, extra);
     auto const wanted = marks > 0.0;
-    Lanes const V = volume.scalar<Lanes>(i);
+    Lanes const V = weight.scalar<Lanes>(i);
     for (int p = 0; p < D; ++p) {
       Lanes total = V * (a[S::Q + p] + extra[p]);
       for (int q = 0; q < D; ++q) total += own[p * D + q] * gradient_sum.scalar<Lanes>(i, q);
       if constexpr (S::kernel_part) total -= own[R::a - R::A + p] * kernel_sum.scalar<Lanes>(i);
       force.add(g, select(wanted, total, Lanes(0.0)), p);
     }
+    if constexpr (D == 2)
+      if (near_axis.table.begin != nullptr) {
+        Lanes extra_force[2];
+        near_axis(g, marks, extra_force);
+        for (int p = 0; p < 2; ++p) force.add(g, extra_force[p], p);
+      }
     if constexpr (S::viscous) {
       heat.add(g, select(wanted, V * a[S::heat], Lanes(0.0)));
       compression.put(g, maximum(compression.seen().template scalar<Lanes>(i), select(wanted, -a[S::mu], Lanes(0.0))));
@@ -178,11 +196,12 @@ struct MaterialForces {
     for (Offset k = table.begin[i]; k < table.begin[i + 1]; k += lane_count) {
       Lanes f[R::A];
       load_listed<D>(table, EquationSet{Form}, k, particles, f);
-      Lanes const s = load_gradients(gradients_of<Form>(table) + k),
-                  weight = select(f[R::viscosity] > 0.0, f[R::volume] * s, Lanes(0.0));
-      if (!any(weight > 0.0)) continue;
+      Lanes const s = load_gradients(gradients_of<Form>(table) + k);
+      Lanes share = select(f[R::viscosity] > 0.0, f[R::volume] * s, Lanes(0.0));
+      if (!any(share > 0.0)) continue;
+      if (body.axisymmetric) share = share * circle(ring_radius(f[R::X], body.spacing));
       for (int q = 0; q < D; ++q) {
-        Lanes const r = weight * (f[R::X + q] - own[R::X + q]);
+        Lanes const r = share * (f[R::X + q] - own[R::X + q]);
         for (int p = 0; p < D; ++p)
           sum[p] +=
               (damping * listed(F_rate, k, 3 * p + q) + stiffness * (listed(F, k, 3 * p + q) - (p == q ? 1.0 : 0.0))) *
@@ -196,12 +215,13 @@ struct MaterialForces {
     return r;
   }
 
-  /// A component of a field of listed neighbours; zero for fillers.
+  /// A component of a tensor of listed neighbours; zero for fillers.
   PIOLA_FN Lanes listed(Components const& field, Offset k, int c) const {
     double values[lane_count];
     for (int l = 0; l < lane_count; ++l) {
       Index const j = table.neighbour[k + l];
-      values[l] = j < particles ? field.at(j, c) : 0;
+      double const sign = j > particles && turns(c / 3, c % 3) ? -1 : 1;
+      values[l] = j != particles ? sign * field.at(source_of(j, particles), c) : 0;
     }
     return load<Lanes>(values);
   }

@@ -12,7 +12,9 @@ struct WriteRecords {
   BodyConstants body;
   Settings settings;
   HalfVolume half;
-  Components x, v_half, volume, viscosity, active, S_half, pressure, rho_half, volume_half, F_rate, gap, K, N,
+  OwnComponents radial_stress;
+  double smallest_radius;
+  Components X, x, v_half, volume, viscosity, active, S_half, pressure, rho_half, volume_half, F_rate, gap, K, N,
       gradient_mean;
   SpatialTable spatial;    ///< records null: not needed
   MaterialTable material;  ///< records null: not needed
@@ -21,6 +23,9 @@ struct WriteRecords {
       : body(of),
         settings(s.settings),
         half(s, of, table, dt),
+        radial_stress(write(s.field.radial_stress)),
+        smallest_radius(s.smallest_radius),
+        X(read(s.field.X)),
         x(read(s.field.x)),
         v_half(read(s.field.v_half)),
         volume(read(s.field.volume)),
@@ -46,6 +51,9 @@ struct WriteRecords {
       SymMat<D, Lanes> stress;
       for (int a = 0; a < D; ++a)
         for (int b = a; b < D; ++b) stress(a, b) = a == b ? S(a, b) - p : S(a, b);
+      // On the axis, where the stretch of the circle is that of the radius, one force serves both.
+      if (D == 2 && settings.axisymmetric)
+        stress(0, 0) = stress(0, 0) + select(X.scalar<Lanes>(i) < smallest_radius, S(2, 2) - p, Lanes(0.0));
       Here const here{half.phi.scalar<Lanes>(i),    active.scalar<Lanes>(i), rho_half.scalar<Lanes>(i),
                       volume_half.scalar<Lanes>(i), half.thickness_at(i),    stress};
       if (spatial.record != nullptr) write_spatial(g, here);
@@ -67,6 +75,16 @@ struct WriteRecords {
 
   /// The D dimensions of F.
   PIOLA_FN Mat<D, Lanes> deformation(Index i) const { return restrict_to<D>(half.F.matrix<Lanes>(i)); }
+
+  PIOLA_FN void clear_radial_stress(Group g) const {
+    for (int p = 0; p < 2 && radial_stress.data != nullptr; ++p) radial_stress.put(g, Lanes(0.0), p);
+  }
+  PIOLA_FN void put_radial_stress(Group g, Lanes const& weight, Mat<D, Lanes> const& F, Here const& here) const {
+    if (radial_stress.data == nullptr) return;
+    Mat<D, Lanes> const inverse_F = inverse(F);
+    for (int p = 0; p < 2; ++p)
+      radial_stress.put(g, weight * (here.stress(p, 0) * inverse_F(0, 0) + here.stress(p, 1) * inverse_F(0, 1)), p);
+  }
 
   /// The halves of damping and springs contained in A, per unit of dF/dt and of F - I, for total-Lagrangian particles.
   PIOLA_FN void add_hourglass(Index i, Here const& here, Mat<D, Lanes> const& F, Lanes* A) const {
@@ -98,9 +116,11 @@ struct WriteRecords {
           for (int l = 0; l < D; ++l) sum += here.stress(p, l) * FN(l, q);
           A[p * D + q] = weight * sum;
         }
+      put_radial_stress(g, select(bears, weight, Lanes(0.0)), F, here);
       add_hourglass(i, here, F, A);
     }
     for (Lanes& value : A) value = select(bears, value, Lanes(0.0));
+    if (!any(bears)) clear_radial_stress(g);
     store_in_records<D>(material, settings.equations, g, R::A, A);
   }
 
@@ -135,9 +155,12 @@ struct WriteRecords {
         r[R::a - first + p] = a;
         r[R::n - first + p] = n;
       }
-      r[R::inverse_J - first] = here.rho * here.thickness / body.rho0;
+      // In the plane.
+      put_radial_stress(g, select(bears, share, Lanes(0.0)), F, here);
+      r[R::inverse_J - first] = here.rho * (settings.axisymmetric ? full(2, 2) : here.thickness) / body.rho0;
       add_hourglass(i, here, F, r);
     }
+    if (!any(bears)) clear_radial_stress(g);
     for (int c = 0; c < R::inverse_J - first; ++c) r[c] = select(bears, r[c], Lanes(0.0));
     r[R::inverse_J - first] = select(bears, r[R::inverse_J - first], Lanes(1.0));
     store_in_records<D>(material, settings.equations, g, first, r);

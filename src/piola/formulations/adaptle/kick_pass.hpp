@@ -36,13 +36,14 @@ struct Kick {
   double dt;
   System s;  ///< optional data: results of spatial sums, supports, loads
   MaterialTable material;
-  Components mass, force, heat, compression, phi, F, F_rate;
+  Components X, mass, force, heat, compression, phi, F, F_rate, v_half, S_half, pressure, rho_half;
   OwnComponents x, v, a;
 
   Kick(System const& system, MaterialTable const& table, double step)
       : dt(step),
         s(system),
         material(table),
+        X(read(s.field.X)),
         mass(read(s.field.mass)),
         force(read(s.field.force)),
         heat(read(s.field.heat)),
@@ -50,6 +51,10 @@ struct Kick {
         phi(read(s.field.phi)),
         F(read(s.field.F)),
         F_rate(read(s.field.F_rate)),
+        v_half(read(s.field.v_half)),
+        S_half(read(s.field.S_half)),
+        pressure(read(s.field.pressure)),
+        rho_half(read(s.field.rho_half)),
         x(write(s.field.x)),
         v(write(s.field.v)),
         a(write(s.field.a)) {}
@@ -79,7 +84,8 @@ struct Kick {
     double acceleration[D][lane_count], after[D][lane_count];
     for (int c = 0; c < D; ++c) {
       Lanes const total = force.data != nullptr ? spatial[c] + force.scalar<Lanes>(i, c) : spatial[c];
-      Lanes const rate = total * per_mass;
+      Lanes rate = total * per_mass;
+      if (c == 0 && s.settings.axisymmetric) rate = select(is_on_axis(i), Lanes(0.0), rate - hoop_pull(i));
       store(rate, acceleration[c]);
       store(v.seen().scalar<Lanes>(i, c) + dt * rate, after[c]);
     }
@@ -91,6 +97,23 @@ struct Kick {
       a.put(g, load<Lanes>(acceleration[c]), c);
       v.put(g, end, c);
       x.add(g, 0.5 * dt * end, c);
+    }
+    if (s.settings.axisymmetric) turn_back(g);
+  }
+
+  /// Radial acceleration by the hoop stress, inwards: that of V sigma_33 / r.
+  PIOLA_FN Lanes hoop_pull(Index i) const {
+    Lanes const stress = S_half.scalar<Lanes>(i, SymMat<3>::at(2, 2)) - pressure.scalar<Lanes>(i);
+    return stress / (rho_half.scalar<Lanes>(i) * radius_at(i));
+  }
+
+  /// Turns particles beyond the axis, with the radial velocity.
+  PIOLA_FN void turn_back(Group g) const {
+    auto const beyond = x.seen().scalar<Lanes>(g.first) < 0.0;
+    if (!any(g.mask() && beyond)) return;
+    for (OwnComponents const* field : {&x, &v, &a}) {
+      Lanes const value = field->seen().scalar<Lanes>(g.first);
+      field->put(g, select(beyond, -value, value));
     }
   }
 
@@ -119,6 +142,15 @@ struct Kick {
   }
 
  public:
+  PIOLA_FN auto is_on_axis(Index i) const { return X.scalar<Lanes>(i) < s.smallest_radius; }
+  /// Radii at half time, never zero [m].
+  PIOLA_FN Lanes radius_at(Index i) const {
+    double radius[lane_count];
+    for (int l = 0; l < lane_count; ++l)
+      radius[l] = maximum(s.position[std::ptrdiff_t{3} * (i + l)], s.smallest_radius);
+    return load<Lanes>(radius);
+  }
+
   /// spatial: velocity gradient of the spatial sums.
   PIOLA_FN void set_gradient(Group g, Lanes const* spatial, BlockScratch& scratch) const {
     Index const i = g.first;
@@ -131,21 +163,47 @@ struct Kick {
       for (int c = 0; c < 9; ++c)
         L.c[c] = select(lagrangian, blend * L.c[c] + (1.0 - blend) * of_material.c[c], L.c[c]);
     }
+    if (s.settings.axisymmetric) L(2, 2) = select(is_on_axis(i), L(0, 0), v_half.scalar<Lanes>(i) / radius_at(i));
     for (int c = 0; c < 9; ++c) store(L.c[c], scratch.L[c] + (i - scratch.first));
   }
+};
+
+/// A particle fills its kernel at most: without this limit two isolated particles would increase each other's volume
+/// without bound. Of rings the volume and the section are limited, the volume to that of the kernel swept around the
+/// axis.
+struct FilledKernel {
+  bool axisymmetric;
+  double least_rho, area, least_radius;
+  Components mass;
+
+  FilledKernel(System const& s, BodyConstants const& body)
+      : axisymmetric(s.settings.axisymmetric),
+        least_rho(body.least_rho),
+        area(4 * std::numbers::pi * body.h * body.h),
+        least_radius(0.5 * body.spacing),
+        mass(read(s.field.mass)) {}
+
+  PIOLA_FN Lanes least_density(Index i, Lanes const& radius) const {
+    if (!axisymmetric) return Lanes(least_rho);
+    return mass.scalar<Lanes>(i) / (circle(maximum(radius, Lanes(least_radius))) * area);
+  }
+  /// Least length of the circle of a ring [m].
+  PIOLA_FN Lanes least_thickness(Index i, Lanes const& rho) const { return mass.scalar<Lanes>(i) / (rho * area); }
 };
 
 /// Updates density, thickness and internal energy to the end of the step.
 struct Balance {
   Settings settings;
-  double dt, least_rho;
-  Components mass, phi, active, S_half, pressure, rho_half, volume_half, thickness_half;
+  double dt;
+  FilledKernel filled;
+  Components x, mass, phi, active, S_half, pressure, rho_half, volume_half, thickness_half;
   OwnComponents rho, rho_rate, thickness, thickness_rate, energy, energy_rate;
 
   Balance(System const& s, BodyConstants const& body, double step)
       : settings(s.settings),
         dt(step),
-        least_rho(body.least_rho),
+        filled(s, body),
+        x(read(s.field.x)),
         mass(read(s.field.mass)),
         phi(read(s.field.phi)),
         active(read(s.field.active)),
@@ -169,10 +227,9 @@ struct Balance {
       auto const evolves = phi.scalar<Lanes>(i) > 0.0;
       Lanes rate = -here * trace(L);
       Lanes next = select(evolves, rho.seen().scalar<Lanes>(i) + dt * rate, here);
-      // A particle fills its kernel at most: without this limit two isolated particles would increase each other's
-      // volume without bound.
-      auto const alone = evolves && next < least_rho;
-      next = select(alone, Lanes(least_rho), next);
+      Lanes const least = filled.least_density(i, x.scalar<Lanes>(i));
+      auto const alone = evolves && next < least;
+      next = select(alone, least, next);
       rate = select(alone && rate < 0.0, Lanes(0.0), rate);
       rho.put(g, next);
       rho_rate.put(g, rate);
@@ -181,10 +238,18 @@ struct Balance {
       if (settings.viscosity == Viscosity::riemann) power = scratch.heat_at(g);
       energy_rate.put(g, power);
       energy.add(g, dt * power);
-      if (!settings.plane_stress) return;
+      if (thickness.data == nullptr) return;
       thickness_rate.put(g, width * L(2, 2));
-      thickness.add(g, dt * width * L(2, 2));
+      if (settings.axisymmetric)
+        thickness.put(g, select(evolves, ring_thickness(i, width * L(2, 2), next), circle(x.scalar<Lanes>(i))));
+      else
+        thickness.add(g, dt * width * L(2, 2));
     });
+  }
+
+  /// At the end of the step, which an Eulerian ring evolves instead of its section.
+  PIOLA_FN Lanes ring_thickness(Index i, Lanes const& rate, Lanes const& density) const {
+    return maximum(thickness.seen().scalar<Lanes>(i) + dt * rate, filled.least_thickness(i, density));
   }
 
   /// V sigma : L, over the thickness.

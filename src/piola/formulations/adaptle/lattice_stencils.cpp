@@ -62,7 +62,7 @@ LatticeStencils::LatticeStencils(ParticleSet const& set, BodyInput const& body, 
                                  std::span<Index const> neighbour, int lanes, bool rounded, int components)
     : first_(static_cast<Index>(body.geometry.first)) {
   PIOLA_EXPECTS(lanes >= 1 && components >= 1);
-  if (!body.geometry.regular || body.geometry.off_lattice) return;
+  if (!body.geometry.regular || body.geometry.off_lattice || set.axisymmetric) return;
   find_offsets(body, set.dimension, rounded);
   Fill fill = find_patterns(set, body, begin, neighbour, lanes);
   comm::allreduce(fill, [](void const* other, void* mine) {

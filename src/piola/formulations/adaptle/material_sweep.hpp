@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/formulations/adaptle/axis_images.hpp"
 #include "piola/formulations/adaptle/reference_pair_sums.hpp"
 
 /// Sums over reference neighbours, first sweep. docs/theory/adaptle.md, "Sums over reference neighbours".
@@ -7,7 +8,8 @@ namespace piola::adaptle::inline PIOLA_BACKEND {
 
 /// Constants of the pairs of one body.
 struct PairConstants {
-  double damping, stiffness, rho0, alpha_c, beta, h, core;
+  double damping, stiffness, rho0, alpha_c, beta, h, core, spacing;
+  bool axisymmetric;
   PIOLA_FN explicit PairConstants(BodyConstants const& b)
       : damping(damping_of(b)),
         stiffness(stiffness_of(b)),
@@ -15,7 +17,9 @@ struct PairConstants {
         alpha_c(b.alpha * b.c),
         beta(b.beta),
         h(b.reference_h),
-        core(0.01 * h * h) {}
+        core(0.01 * h * h),
+        spacing(b.spacing),
+        axisymmetric(b.axisymmetric) {}
 };
 
 /// First sweep: F_a = I + sum_b V0_b (u_b - u_a) (x) G_ab, its rate with the velocities at half time (13), and
@@ -43,7 +47,7 @@ struct DeformPairs {
   template <class V>
   struct Own {
     Vec<D, V> u, v;
-    V viscosity;
+    V viscosity, radius;
   };
   template <class V>
   PIOLA_INLINE_FN static Own<V> own_at(RecordPlace const& p) {
@@ -53,6 +57,7 @@ struct DeformPairs {
       own.v[c] = load_local<V>(p, R::v + c);
     }
     own.viscosity = load_local<V>(p, R::viscosity);
+    own.radius = load_local<V>(p, R::X);
     return own;
   }
 
@@ -80,21 +85,28 @@ struct DeformPairs {
       }
     }
     Lanes const least = minimum(f(R::viscosity), Lanes(own.viscosity));  // negative if one of both is
-    Lanes const weight = select(least < 0.0, Lanes(0.0), Vs);
+    Lanes const weight = select(least < 0.0, Lanes(0.0), Vs),
+                of_both = D == 2 && b.axisymmetric ? both_rings(own, g, weight) : weight;
     if constexpr (central) {
-      add_central(sum, own, g, u, w, weight, f(R::viscosity));
+      add_central(sum, own, g, u, w, weight, of_both, f(R::viscosity));
     } else {
-      Lanes const pull = b.damping * weight;
+      Lanes const pull = b.damping * of_both;
       for (int p = 0; p < D; ++p) sum[T + p] += pull * w[p];
-      sum[heat] += 0.5 * pull * dot(w, w);
+      sum[heat] += 0.5 * b.damping * weight * dot(w, w);
     }
   }
 
  private:
+  /// The weight of a force that both own: with the mean of their circles instead of the own one.
+  template <class V>
+  PIOLA_INLINE_FN Lanes both_rings(Own<V> const& own, PairGeometry<D, Lanes> const& g, Lanes const& weight) const {
+    return 0.5 * weight * (1.0 + ring_radius(own.radius + g.r[0], b.spacing) / ring_radius(own.radius, b.spacing));
+  }
+
   template <class V>
   PIOLA_INLINE_FN void add_central(Lanes (&sum)[sums], Own<V> const& own, PairGeometry<D, Lanes> const& g,
                                    Vec<D, Lanes> const& u, Vec<D, Lanes> const& w, Lanes const& weight,
-                                   Lanes const& viscosity) const {
+                                   Lanes const& of_both, Lanes const& viscosity) const {
     Vec<D, Lanes> const x = g.r + u;
     Lanes const closing = select(weight > 0.0, minimum(dot(w, x), Lanes(0.0)), Lanes(0.0));
     Lanes const share = 1.0 / (dot(x, x) + b.core), speed = (b.h * closing) * share;
@@ -102,11 +114,11 @@ struct DeformPairs {
     Lanes const factor = 0.5 * (viscosity + own.viscosity);
     // For particles with equal stretch this is the J^-1 F^-T r of set (2) along principal directions.
     Lanes const push =
-        (b.rho0 * (b.beta * speed - b.alpha_c) * speed) * ((dot(g.r, g.r) + b.core) * share) * (factor * weight);
-    Lanes const pull = b.damping * weight, spring = b.stiffness * weight;
+        (b.rho0 * (b.beta * speed - b.alpha_c) * speed) * ((dot(g.r, g.r) + b.core) * share) * (factor * of_both);
+    Lanes const pull = b.damping * of_both, spring = b.stiffness * of_both;
     for (int p = 0; p < D; ++p) sum[T + p] += pull * w[p] + spring * u[p] - push * x[p];
-    sum[stored] += 0.5 * spring * dot(u, w);
-    sum[heat] += 0.5 * (pull * dot(w, w) - push * closing);
+    sum[stored] += 0.5 * (b.stiffness * weight) * dot(u, w);
+    sum[heat] += 0.5 * ((b.damping * weight) * dot(w, w) - push * closing);
   }
 };
 
@@ -117,15 +129,22 @@ struct Deform {
   using S = DeformPairs<D, Form>;
   MaterialTable table;
   Index particles;
-  Components phi, active, volume, thickness_half, K, N, gradient_mean;
+  AxisGradients near_axis;
+  double smallest_radius;
+  Components phi, active, X, x, volume, thickness_half, K, N, gradient_mean;
   OwnComponents F, F_rate, gap, force, heat, hourglass, compression;
   S pairs;
 
   Deform(System const& s, MaterialTable const& of_body, BodyConstants const& body)
       : table(of_body),
         particles(s.particles),
+        near_axis{of_body.axis,    s.particles,          read(s.field.X),
+                  read(s.field.x), read(s.field.v_half), read(s.field.active)},
+        smallest_radius(s.smallest_radius),
         phi(read(s.field.phi)),
         active(read(s.field.active)),
+        X(read(s.field.X)),
+        x(read(s.field.x)),
         volume(read(s.field.volume)),
         thickness_half(read(s.field.thickness_half)),
         K(read(s.field.K)),
@@ -152,6 +171,8 @@ struct Deform {
     auto const wanted = marks > 0.0;
     Mat<3, Lanes> gradient = identity<3, Lanes>(), rate = 0.0 * gradient;
     set_gradients(i, a, gradient, rate);
+    if constexpr (D == 2)
+      if (b.axisymmetric) turn_around_axis(g, marks, gradient, rate);
     for (int c = 0; c < 9; ++c) {
       F.put(g, select(wanted, gradient.c[c], F.seen().template scalar<Lanes>(i, c)), c);
       F_rate.put(g, select(wanted, rate.c[c], F_rate.seen().template scalar<Lanes>(i, c)), c);
@@ -182,6 +203,20 @@ struct Deform {
   }
 
  private:
+  /// Adds what axisymmetric bodies have more: the correction near the axis, and the stretch of the circle.
+  PIOLA_FN void turn_around_axis(Group g, Lanes const& marks, Mat<3, Lanes>& gradient, Mat<3, Lanes>& rate) const {
+    if (near_axis.table.begin != nullptr) {
+      Lanes u[2], v[2];
+      near_axis(g, marks, u, v);
+      for (int p = 0; p < 2; ++p) {
+        gradient(p, 0) += u[p];
+        rate(p, 0) += v[p];
+      }
+    }
+    Lanes const from = X.scalar<Lanes>(g.first);
+    gradient(2, 2) = select(from < smallest_radius, gradient(0, 0), x.scalar<Lanes>(g.first) / from);
+  }
+
   PIOLA_FN void set_gradients(Index i, Lanes const (&a)[S::sums], Mat<3, Lanes>& gradient, Mat<3, Lanes>& rate) const {
     constexpr bool folded = EquationSet{Form}.stores_kernel();
     for (int l = 0; l < D; ++l)

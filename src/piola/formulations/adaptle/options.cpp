@@ -213,8 +213,9 @@ EquationSet read_equations(FormulationSpec const& spec, bool yielding) {
   return e;
 }
 
-Settings read_settings(FormulationSpec const& spec, bool yielding) {
+Settings read_settings(FormulationSpec const& spec, bool yielding, bool axisymmetric) {
   Settings s;
+  s.axisymmetric = axisymmetric;
   s.viscosity = choice_of<Viscosity>(spec, choices, "viscosity");
   s.equations = read_equations(spec, yielding);
   s.kernel = find_kernel(word(spec, "kernel"));
@@ -284,6 +285,32 @@ void check_body(BodyOptions const& o, Settings const& s, std::string const& name
     refuse("viscosity = \"riemann\" needs description = \"eulerian\" and no correction = \"mixed\" - change them");
 }
 
+/// Refuses what axisymmetric bodies cannot have.
+void check_axisymmetric(Assembly const& assembly, Options const& o, Problems& problems) {
+  if (!assembly.particles.axisymmetric) return;
+  auto const refuse = [&](std::string const& what) {
+    problems.add({}, "adaptle: geometry is \"axisymmetric\", and " + what);
+  };
+  if (o.settings.viscosity == Viscosity::riemann)
+    refuse(
+        "body.formulation.viscosity is \"riemann\" (allowed: compression, monaghan, balsara, morris_monaghan) - "
+        "choose another one");
+  if (o.settings.corrected)
+    refuse("body.formulation.correction is \"mixed\" (allowed: material, none) - choose another one");
+  if (!o.settings.equations.has_reactions())
+    refuse("body.formulation.interface is \"published\" (allowed: owner) - leave it out");
+  if (o.settings.plane_stress)
+    refuse(
+        "body.formulation.assumption is \"plane_stress\" (the third direction is that of the circle) - leave it out");
+  if (assembly.contact.law == ContactRule::Law::as_published)
+    refuse("contact.law is \"published\" (allowed: kernel, linear, surface, none) - choose another law");
+  for (BodyOptions const& body : o.bodies)
+    if (body.description == Description::patch)
+      return refuse(
+          "body.formulation.description is \"patch\" (allowed: adaptive, total_lagrangian, eulerian) - choose "
+          "another one");
+}
+
 }  // namespace
 
 FormulationInfo info() {
@@ -295,6 +322,7 @@ FormulationInfo info() {
                        usable_laws(),
                        diagnostics};
   info.mirrors = false;
+  info.axisymmetric = true;
   info.contact = true;
   info.can_be_coupled = true;
   info.observes_locally = true;
@@ -308,7 +336,8 @@ Options read_options(Assembly const& assembly) {
   int const dimension = assembly.particles.dimension;
   if (dimension == 1) problems.add({}, "adaptle: the case is one-dimensional (allowed: 2 or 3 dimensions)");
   o.settings = read_settings(assembly.formulations.front(),
-                             std::any_of(assembly.materials.begin(), assembly.materials.end(), yields));
+                             std::any_of(assembly.materials.begin(), assembly.materials.end(), yields),
+                             assembly.particles.axisymmetric);
   if (o.settings.plane_stress && dimension != 2)
     problems.add({}, "formulation: assumption = \"plane_stress\" is for bodies in 2D - leave it out");
   EquationSet const& equations = o.settings.equations;
@@ -320,6 +349,7 @@ Options read_options(Assembly const& assembly) {
     check_body(o.bodies.back(), o.settings, assembly.particles.bodies[b].name, problems);
   }
   check_one_kernel(assembly, o.bodies, problems);
+  check_axisymmetric(assembly, o, problems);
   problems.raise_if_any();
   return o;
 }

@@ -50,7 +50,8 @@ FieldNeeds field_needs(Assembly const& assembly, Options const& options) {
                                       [](BodyOptions const& o) { return o.description != Description::eulerian; });
   return {.lagrangian = lagrangian,
           .kernel_sums = lagrangian && options.settings.equations.stores_kernel(),
-          .plane_stress = options.settings.plane_stress,
+          .thickness = options.settings.plane_stress || options.settings.axisymmetric,
+          .axisymmetric = options.settings.axisymmetric,
           .touching = assembly.particles.bodies.size() > 1 || !assembly.rigid_shapes.empty()};
 }
 
@@ -74,6 +75,7 @@ void ParticleData::set_bodies(Assembly const& assembly, Options const& options) 
     BodyOptions const& o = options.bodies[k];
     BodyConstants b;
     b.material = assembly.materials[k];
+    b.axisymmetric = options.settings.axisymmetric;
     b.first = static_cast<Index>(from.first);
     b.last = static_cast<Index>(from.last);
     for (std::size_t c = 0; c < at(set_.dimension); ++c)
@@ -121,20 +123,24 @@ void ParticleData::allocate(Options const& options) {
   auto const n = static_cast<std::size_t>(set_.size());
   System& s = system_;
   constexpr Index guard = 16;  // loops read whole lanes
-  memory_.each_without_memory([&](Field& field) { field.allocate(static_cast<Index>(n), guard); });
+  s.particles = static_cast<Index>(n);
+  std::size_t const slots = at(s.all_slots());
+  memory_.each_without_memory([&](Field& field) { field.allocate(s.all_slots(), guard); });
   memory_.bind();
   for (std::size_t b = 0; b < body_.size(); ++b)
     body_of_.insert(body_of_.end(), at(body_[b].last - body_[b].first), static_cast<int>(b));
+  for (Index image = s.particles; image < s.all_slots(); ++image)
+    body_of_.push_back(body_of_[at(image > s.particles ? s.source_of(image) : 0)]);
   if (options.settings.corrected) correction_ = LazyZeroArray<Correction>(n);
-  position_ = LazyZeroArray<double>(3 * n);
-  eulerian_.resize(n);
+  position_ = LazyZeroArray<double>(3 * (slots + guard));
+  eulerian_.resize(slots);
   partial_.resize(16 * (n / 64 + 2));
   s.bodies = static_cast<int>(body_.size());
-  s.particles = static_cast<Index>(n);
   s.body = body_.data();
   s.body_of = body_of_.data();
   s.correction = correction_.data();
   s.position = position_.data();
+  for (BodyConstants const& b : body_) s.smallest_radius = std::max(s.smallest_radius, 1e-3 * b.spacing);
   s.description.eulerian = eulerian_.data();
   s.partial = partial_.data();
   s.failure = &failure_;
@@ -176,6 +182,11 @@ void ParticleData::set_reference() {
     std::size_t const i = at(slot);
     for (int c = 0; c < 3; ++c) fields().X.at(slot, c) = set_.X[i][at(c)];
     fields().volume.at(slot) = set_.volume[i];
+    if (!Fields::holds(fields().area)) return;
+    Index const image = system_.image_of(slot);
+    for (int c = 0; c < 3; ++c) fields().X.at(image, c) = c == 0 ? -set_.X[i][0] : set_.X[i][at(c)];
+    fields().area.at(slot) = fields().area.at(image) =
+        set_.volume[i] / (2 * std::numbers::pi * ring_radius(set_.X[i][0], body_of(slot).spacing));
   };
   for (std::size_t b = 0; b < body_.size(); ++b)
     for (Index i = system_.part[b].first; i < system_.part[b].last; ++i) {
@@ -201,16 +212,29 @@ void ParticleData::set_initial_state(Assembly const& assembly) {
         }
         fields().rho.at(slot) = body_[k].rho0;
         fields().viscosity.at(slot) = 1;
-        if (Fields::holds(fields().thickness)) fields().thickness.at(slot) = 1;
+        if (Fields::holds(fields().thickness)) fields().thickness.at(slot) = initial_thickness(slot);
         fields().temperature.at(slot) = law.initial_temperature();
         fields().energy.at(slot) = fields().mass.at(slot) * law.initial_energy();
       }
     });
 }
 
+/// See Fields::thickness. Also puts the image of the particle.
+double ParticleData::initial_thickness(Index slot) {
+  if (!system_.settings.axisymmetric) return 1;
+  double const radius = fields().x.at(slot);
+  Index const image = system_.image_of(slot);
+  for (int c = 0; c < 3; ++c) position_[3 * at(image) + at(c)] = c == 0 ? -radius : fields().x.at(slot, c);
+  return 2 * std::numbers::pi * radius;
+}
+
 void ParticleData::update_kernel_types() {
-  for (Index i = 0; i < system_.particles; ++i) eulerian_[at(i)] = fields().phi.at(i) > 0 ? 1 : 0;
-  system_.description.eulerians = static_cast<Index>(std::count(eulerian_.begin(), eulerian_.end(), std::uint8_t{1}));
+  Index const n = system_.particles;
+  for (Index i = 0; i < n; ++i) eulerian_[at(i)] = fields().phi.at(i) > 0 ? 1 : 0;
+  system_.description.eulerians =
+      static_cast<Index>(std::count(eulerian_.begin(), eulerian_.begin() + n, std::uint8_t{1}));
+  if (system_.settings.axisymmetric)
+    for (Index i = 0; i < n; ++i) eulerian_[at(system_.image_of(i))] = eulerian_[at(i)];
 }
 
 bool ParticleData::has_surface_contact() const {

@@ -66,6 +66,7 @@ class ParticleData {
   void set_bodies(Assembly const& assembly, Options const& options);
   void set_contact(Assembly const& assembly);
   void allocate(Options const& options);
+  double initial_thickness(Index slot);
   void set_descriptions(Options const& options);
   void blend_patch(BodyConstants const& body, double width, std::vector<Index> const& outside);
 

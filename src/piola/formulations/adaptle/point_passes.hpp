@@ -15,8 +15,10 @@ PIOLA_FN Lanes positive_factor(Lanes const& viscosity) { return maximum(viscosit
 template <int D>
 struct Drift {
   double dt;
-  Components X, volume, v, a, viscosity, phi, active, thickness, thickness_rate;
-  OwnComponents x, v_half, thickness_half, force, heat, hourglass, compression, contact;
+  bool axisymmetric;
+  double smallest_radius;
+  Components X, weight, a, viscosity, phi, active, thickness, thickness_rate;
+  OwnComponents x, v, v_half, thickness_half, force, heat, hourglass, compression, contact;
   double* position;
   MaterialTable material;
   EquationSet equations;
@@ -24,9 +26,10 @@ struct Drift {
 
   Drift(System const& s, MaterialTable const& table, double step)
       : dt(step),
+        axisymmetric(s.settings.axisymmetric),
+        smallest_radius(s.smallest_radius),
         X(read(s.field.X)),
-        volume(read(s.field.volume)),
-        v(read(s.field.v)),
+        weight(read(s.field.weight())),
         a(read(s.field.a)),
         viscosity(read(s.field.viscosity)),
         phi(read(s.field.phi)),
@@ -34,6 +37,7 @@ struct Drift {
         thickness(read(s.field.thickness)),
         thickness_rate(read(s.field.thickness_rate)),
         x(write(s.field.x)),
+        v(write(s.field.v)),
         v_half(write(s.field.v_half)),
         thickness_half(write(s.field.thickness_half)),
         force(write(s.field.force)),
@@ -58,7 +62,7 @@ struct Drift {
     double places[3][lane_count];
     auto finite = g.mask();
     for (int c = 0; c < 3; ++c) {
-      Lanes const before = v.scalar<Lanes>(i, c);
+      Lanes const before = v.seen().scalar<Lanes>(i, c);
       speed[c] = before + step * a.scalar<Lanes>(i, c);
       place[c] = x.seen().scalar<Lanes>(i, c) + step * before;
       v_half.put(g, speed[c], c);
@@ -66,13 +70,33 @@ struct Drift {
       store(place[c], places[c]);
       finite = finite && magnitude(place[c]) < 1e30 && magnitude(speed[c]) < 1e30;
     }
+    if (axisymmetric) turn_back(g, place[0], speed[0], places[0]);
     for (int l = 0; l < g.count; ++l)
       for (int c = 0; c < 3; ++c) position[3 * (i + l) + c] = places[c][l];
     if (any(g.mask() && !finite)) report(g, places);
-    if (thickness_half.data != nullptr)
-      thickness_half.put(g, thickness.scalar<Lanes>(i) + step * thickness_rate.scalar<Lanes>(i));
+    if (thickness_half.data != nullptr) thickness_half.put(g, thickness_at(i, step, place[0]));
     clear(g);
     if (material.used) write_record(g, place, speed);
+  }
+
+  /// Turns particles beyond the axis, with the radial velocity.
+  PIOLA_FN void turn_back(Group g, Lanes& radius, Lanes& speed, double (&radii)[lane_count]) const {
+    auto const beyond = radius < 0.0;
+    if (!any(g.mask() && beyond)) return;
+    Lanes const before = v.seen().scalar<Lanes>(g.first);
+    radius = select(beyond, -radius, radius);
+    speed = select(beyond, -speed, speed);
+    store(radius, radii);
+    x.put(g, radius);
+    v_half.put(g, speed);
+    v.put(g, select(beyond, -before, before));
+  }
+
+  /// At half time. That of total-Lagrangian rings is known.
+  PIOLA_FN Lanes thickness_at(Index i, double step, Lanes const& radius) const {
+    Lanes const predicted = thickness.scalar<Lanes>(i) + step * thickness_rate.scalar<Lanes>(i);
+    return axisymmetric ? select(phi.scalar<Lanes>(i) > 0.0, predicted, circle(maximum(radius, Lanes(smallest_radius))))
+                        : predicted;
   }
 
   PIOLA_FN void report(Group g, double const (&places)[3][lane_count]) const {
@@ -101,7 +125,7 @@ struct Drift {
       r[R::v + c] = speed[c];
     }
     auto const there = active.scalar<Lanes>(g.first) > 0.0;
-    r[R::volume] = select(there, volume.scalar<Lanes>(g.first), Lanes(0.0));
+    r[R::volume] = select(there, weight.scalar<Lanes>(g.first), Lanes(0.0));
     Lanes const factor = positive_factor(viscosity.scalar<Lanes>(g.first));
     r[R::viscosity] = select(phi.scalar<Lanes>(g.first) > 0.0 && there, -factor, factor);
     store_in_records<D>(material, equations, g, 0, r);

@@ -41,6 +41,7 @@ void ReferenceLists::build(ParticleSet const& set, std::vector<BodyConstants> co
   part_ = LazyZeroArray<std::uint8_t>(at(particles_) + 16);
   for (std::size_t b = 0; b < bodies.size(); ++b) list(set, {set.bodies[b], bodies[b], own[b]}, lanes);
   find_edge();
+  find_images();
   for (Index const i : edge_)
     each_neighbour_of({i, i + 1}, [&](Index j) {
       for (int c = 0; c < 3; ++c) fields.X.at(j, c) = set.X[at(j)][at(c)];
@@ -56,6 +57,7 @@ void ReferenceLists::build(ParticleSet const& set, std::vector<BodyConstants> co
   } else {
     invert(fields, set.dimension);
   }
+  if (!image_.empty()) correct_axis(bodies, fields);
   int const components =
       set.dimension == 2 ? MaterialRecord<2>::values(equations_) : MaterialRecord<3>::values(equations_);
   for (std::size_t b = 0; b < bodies.size(); ++b)
@@ -71,10 +73,17 @@ template <int D>
 void ReferenceLists::allocate_records() {
   using R = MaterialRecord<D>;
   int const stride = R::stride(equations_);
-  records_ = Memory((at(particles_) + 1) * at(stride));
+  records_ = Memory(((image_.empty() ? 1 : 2) * at(particles_) + 1) * at(stride));
   double* const filler = records_.data() + std::ptrdiff_t{particles_} * stride;
   filler[R::viscosity] = 1;
   if (equations_.records_deformation()) filler[R::inverse_J] = 1;
+}
+
+void ReferenceLists::find_images() {
+  for (Index const j : neighbour_)
+    if (j > particles_) image_.push_back(source_of(j, particles_));
+  std::sort(image_.begin(), image_.end());
+  image_.erase(std::unique(image_.begin(), image_.end()), image_.end());
 }
 
 void ReferenceLists::find_edge() {
@@ -103,6 +112,18 @@ void each_around(ParticleSet const& set, Range body, Range own, double reach, F 
     for (std::size_t c = 0; c < 3; ++c) near = near && x[c] >= low[c] - reach && x[c] <= high[c] + reach;
     if (near) f(i);
   }
+}
+
+/// Calls f(point, squared distance) for the points whose images behind the axis are within the search distance of x.
+template <class F>
+void each_image_around(CellGrid const& grid, std::vector<std::array<double, 3>> const& points,
+                       std::array<double, 3> const& x, double reach, F const& f) {
+  std::array const image{-x[0], x[1], x[2]};
+  grid.visit(image, [&](Index local) {
+    auto const& y = points[at(local)];
+    double const dx = y[0] - image[0], dy = y[1] - image[1], square = dx * dx + dy * dy;
+    if (square < reach * reach) f(local, square);
+  });
 }
 
 void ReferenceLists::list(ParticleSet const& set, BodyInput const& body, int lanes) {
@@ -138,16 +159,25 @@ void ReferenceLists::list(ParticleSet const& set, BodyInput const& body, int lan
       if (lattice) square = lattice_square(geometry, place[at(i)], place[at(j)]);
       add_pair(constants.reference_h, j, square);
     }
-    std::size_t const found = neighbour_.size();
-    while (neighbour_.size() % static_cast<std::size_t>(lanes) != 0) add_pair(constants.reference_h, particles_, 1e300);
-    filled_[at(i)] = static_cast<std::uint8_t>(neighbour_.size() - found);
-    begin_[at(i) + 1] = static_cast<Offset>(neighbour_.size());
+    if (set.axisymmetric)
+      each_image_around(grid, points, x, reach, [&](Index local, double square) {
+        add_pair(constants.reference_h, particles_ + 1 + slots[at(local)], square);
+      });
+    end_list(i, lanes);
   }
+}
+
+/// Fills the list of a particle up to whole lanes.
+void ReferenceLists::end_list(Index i, int lanes) {
+  std::size_t const found = neighbour_.size();
+  while (neighbour_.size() % static_cast<std::size_t>(lanes) != 0) add_pair(1, particles_, 1e300);
+  filled_[at(i)] = static_cast<std::uint8_t>(neighbour_.size() - found);
+  begin_[at(i) + 1] = static_cast<Offset>(neighbour_.size());
 }
 
 void ReferenceLists::add_pair(double h, Index j, double square) {
   double s = 0, W = 0;
-  if (j < particles_) kernel_(h, square, s, W);
+  if (j != particles_) kernel_(h, square, s, W);
   neighbour_.push_back(j);
   if (equations_.rounds_gradients())
     gradient_.push_back(static_cast<float>(s));
@@ -164,8 +194,8 @@ void ReferenceLists::invert(Fields& fields, int dimension) {
     double G[3]{}, A[9]{}, K[9]{1, 0, 0, 0, 1, 0, 0, 0, 1};
     for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
       Index const j = neighbour_[at(k)];
-      if (j >= particles_) continue;
-      double const Vs = fields.volume.at(j) * gradient(k);
+      if (j == particles_) continue;
+      double const Vs = fields.weight().at(j) * gradient(k);
       double r[3];
       for (int c = 0; c < 3; ++c) r[c] = fields.X.at(j, c) - fields.X.at(i, c);
       for (int p = 0; p < 3; ++p) {
@@ -189,10 +219,10 @@ void ReferenceLists::sum_gradients(F const& active, Fields& fields) {
     double G[3]{}, W = 0;
     for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
       Index const j = neighbour_[at(k)];
-      if (j >= particles_ || !active(j)) continue;
-      double const Vs = fields.volume.at(j) * gradient(k);
+      if (j == particles_ || !active(source_of(j, particles_))) continue;
+      double const Vs = fields.weight().at(j) * gradient(k);
       for (int c = 0; c < 3; ++c) G[c] += Vs * (fields.X.at(j, c) - fields.X.at(i, c));
-      if (equations_.stores_kernel()) W += fields.volume.at(j) * W_[at(k)];
+      if (equations_.stores_kernel()) W += fields.weight().at(j) * W_[at(k)];
     }
     for (int c = 0; c < 3; ++c) fields.gradient_sum.at(i, c) = G[c];
     if (equations_.stores_kernel()) fields.kernel_sum.at(i) = W;
@@ -204,11 +234,11 @@ void ReferenceLists::correct(Fields& fields, std::vector<BodyConstants> const& b
     for (Index i = own_[b].first; i < own_[b].last; ++i) {
       double none = 0, W0 = 0, G[3]{}, xW[3]{}, moments[9]{};
       kernel_(bodies[b].reference_h, 0, none, W0);
-      double S = fields.volume.at(i) * W0;
+      double S = fields.weight().at(i) * W0;
       for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
         Index const j = neighbour_[at(k)];
-        if (j >= particles_) continue;
-        double const V = fields.volume.at(j);
+        if (j == particles_) continue;
+        double const V = fields.weight().at(j);
         double r[3];
         for (int c = 0; c < 3; ++c) r[c] = fields.X.at(j, c) - fields.X.at(i, c);
         S += V * W_[at(k)];
@@ -229,6 +259,38 @@ void ReferenceLists::correct(Fields& fields, std::vector<BodyConstants> const& b
     }
 }
 
+void ReferenceLists::correct_axis(std::vector<BodyConstants> const& bodies, Fields const& fields) {
+  std::vector<double> s(neighbour_.size(), 0), radial(neighbour_.size(), 0);
+  for_each_local([&](Index i) {
+    for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
+      if (neighbour_[at(k)] == particles_) continue;
+      s[at(k)] = gradient(k);
+      radial[at(k)] = radial_gradient(i, k, fields);
+    }
+  });
+  std::vector<AxisCorrection::Body> of;
+  for (BodyConstants const& b : bodies) {
+    double own = 0, none = 0;
+    kernel_(b.reference_h, 0.36 * b.reference_h * b.reference_h, own, none);
+    of.push_back({{b.first, b.last}, b.spacing, own});
+  }
+  axis_ = AxisCorrection({particles_, {begin_.begin(), begin_.end()}, neighbour_, s, radial, fields}, of);
+}
+
+/// A0_b G_ab along the radius.
+double ReferenceLists::radial_gradient(Index i, Offset k, Fields const& fields) const {
+  Index const j = neighbour_[at(k)];
+  double sum = 0;
+  for (int c = 0; c < 2; ++c) {
+    double const r = fields.X.at(j, c) - fields.X.at(i, c);
+    if (!equations_.stores_kernel())
+      sum += fields.K.at(i, SymMat<2>::at(0, c)) * gradient(k) * r;
+    else
+      sum += fields.N.at(i, c) * (gradient(k) * r - W_[at(k)] * fields.gradient_mean.at(i, c));
+  }
+  return fields.weight().at(j) * sum;
+}
+
 void ReferenceLists::choose(Fields& fields) {
   bool deleted = false;
   for (Index i = 0; i < particles_; ++i) deleted = deleted || !(fields.active.at(i) > 0);
@@ -242,7 +304,7 @@ void ReferenceLists::choose(Fields& fields) {
     bool const own = lagrangian(i), other = fields.phi.at(i) > 0;
     bool beside = false;
     for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1] && other && !beside; ++k)
-      if (Index const j = neighbour_[at(k)]; j < particles_) beside = lagrangian(j);
+      if (Index const j = neighbour_[at(k)]; j != particles_) beside = lagrangian(source_of(j, particles_));
     bool const kinematic = own || (beside && equations_.deforms_eulerian());
     if (kinematic) part_[at(i)] |= Part::kinematic;
     if (own || (beside && equations_.has_reactions())) part_[at(i)] |= Part::target;
@@ -275,14 +337,18 @@ void ReferenceLists::put_into(MaterialTable& table) {
   table.W = W_.data();
   table.part = part_.data();
   table.record = records_.data();
+  table.images = static_cast<Index>(image_.size());
+  table.image = image_.data();
+  table.axis = axis_.view();
   table.rows_of = row_views_.data();
 }
 
 std::size_t ReferenceLists::bytes() const {
   std::size_t rows = 0;
   for (LatticeStencils const& of_body : rows_) rows += of_body.bytes();
-  return rows + records_.bytes() + part_.size() + sizeof(Offset) * begin_.size() + sizeof(Index) * neighbour_.size() +
-         sizeof(float) * gradient_.size() + sizeof(double) * (s_.size() + W_.size()) + filled_.size();
+  return rows + axis_.bytes() + records_.bytes() + part_.size() + sizeof(Offset) * begin_.size() +
+         sizeof(Index) * neighbour_.size() + sizeof(float) * gradient_.size() +
+         sizeof(double) * (s_.size() + W_.size()) + filled_.size();
 }
 
 }  // namespace piola::adaptle

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/exec/lazy_zero_array.hpp"
+#include "piola/formulations/adaptle/axis_correction.hpp"
 #include "piola/formulations/adaptle/fields.hpp"
 #include "piola/formulations/adaptle/lattice_stencils.hpp"
 #include <vector>
@@ -8,7 +9,7 @@
 namespace piola::adaptle {
 
 /// Reference neighbours of the local particles, constant between repartitions, and participation in material sums,
-/// updated at each conversion.
+/// updated at each conversion. Images behind the axis of axisymmetric bodies are neighbours (System::image_of).
 class ReferenceLists {
  public:
   /// Builds lists within 2h of each body, in order of ids, with the data for the sums of `settings`; sets positions and
@@ -21,18 +22,18 @@ class ReferenceLists {
   /// 0, others -1. Deleted ones are removed from the sums of their neighbours. Reads phi and active of all particles.
   void choose(Fields& fields);
 
-  /// Calls f(b) for the reference neighbours of a within the distance [m].
+  /// Calls f(b) for the reference neighbours of a, and for particles whose images are, within the distance [m].
   template <class F>
   void each_neighbour(Index a, double within, Fields const& fields, F const& f) const {
     for (Offset k = begin_[static_cast<std::size_t>(a)]; k < begin_[static_cast<std::size_t>(a) + 1]; ++k) {
       Index const b = neighbour_[static_cast<std::size_t>(k)];
-      if (b >= particles_) continue;
+      if (b == particles_) continue;
       double square = 0;
       for (int c = 0; c < 3; ++c) {
         double const d = fields.X.at(b, c) - fields.X.at(a, c);
         square += d * d;
       }
-      if (square <= within * within) f(b);
+      if (square <= within * within) f(source_of(b, particles_));
     }
   }
 
@@ -41,7 +42,7 @@ class ReferenceLists {
   void each_neighbour_of(Range slots, F const& f) const {
     for (Offset k = begin_[static_cast<std::size_t>(slots.first)]; k < begin_[static_cast<std::size_t>(slots.last)];
          ++k)
-      if (Index const b = neighbour_[static_cast<std::size_t>(k)]; b < particles_) f(b);
+      if (Index const b = neighbour_[static_cast<std::size_t>(k)]; b != particles_) f(source_of(b, particles_));
   }
 
   void put_into(MaterialTable& table);
@@ -71,6 +72,10 @@ class ReferenceLists {
   void allocate_records();
   void mark_mixed(Fields const& fields);
   void add_pair(double h, Index j, double square);
+  void end_list(Index i, int lanes);
+  void find_images();
+  void correct_axis(std::vector<BodyConstants> const& bodies, Fields const& fields);
+  double radial_gradient(Index i, Offset k, Fields const& fields) const;
   void correct(Fields& fields, std::vector<BodyConstants> const& bodies, int dimension);
   void invert(Fields& fields, int dimension);
   template <class F>
@@ -86,7 +91,9 @@ class ReferenceLists {
   KernelFunction kernel_ = nullptr;
   bool deleted_ = false;
   std::vector<Range> own_;
-  std::vector<Index> edge_;  ///< local particles with ghost neighbours
+  std::vector<Index> edge_;   ///< local particles with ghost neighbours
+  std::vector<Index> image_;  ///< particles whose images behind the axis are neighbours
+  AxisCorrection axis_;
   LazyZeroArray<Offset> begin_;
   std::vector<Index> neighbour_;
   std::vector<float> gradient_;

@@ -18,6 +18,28 @@
 namespace piola::adaptle {
 namespace {
 
+/// Eulerian particles on the axis would form a jet.
+void check_axis(Assembly const& assembly, Problems& problems) {
+  if (!assembly.particles.axisymmetric) return;
+  if (comm::is_parallel())
+    problems.add({},
+                 "adaptle: geometry is \"axisymmetric\", and the run has several ranks (allowed: one, with threads) "
+                 "- run it without mpirun");
+  for (std::size_t b = 0; b < assembly.formulations.size(); ++b) {
+    Body const& body = assembly.particles.bodies[b];
+    auto const description = assembly.formulations[b].words.find("description");
+    bool const turns = description == assembly.formulations[b].words.end() || description->second != "total_lagrangian";
+    for (auto id = body.first; turns && id < body.last; ++id) {
+      if (assembly.particles.X[at(id)][0] > 1e-3 * body.spacing[0]) continue;
+      problems.add({}, fmt::format("adaptle: geometry is \"axisymmetric\", and body \"{}\" has particles on the axis "
+                                   "that may turn Eulerian (allowed: body.shape.placement = \"cell_centred\", half a "
+                                   "spacing beside it) - change the placement",
+                                   body.name));
+      break;
+    }
+  }
+}
+
 void check(Assembly const& assembly) {
   Problems problems;
   for (std::size_t b = 0; b < assembly.materials.size(); ++b)
@@ -40,6 +62,7 @@ void check(Assembly const& assembly) {
     problems.add({},
                  "adaptle: there is an initial deformation gradient (deformation follows from positions here) - "
                  "give initial_displacement instead");
+  check_axis(assembly, problems);
   for (Support const& support : assembly.supports)
     if (support.frame != Support::Frame::axes)
       problems.add({}, "adaptle: a support has a normal (allowed: fix along axes) - use fix, or a rigid plane");

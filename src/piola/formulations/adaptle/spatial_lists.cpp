@@ -19,13 +19,37 @@ std::array<double, 3> origin_of_cells(System const& s) { return point_at(s.field
 /// Sorts all particles into cells, on one rank. If all are Eulerian and none is in contact with another body, all take
 /// part.
 void SpatialLists::sort_all(System const& s) {
-  grid_.find_cells(s.position, 3, s.particles, s.dimension, widest_, origin_of_cells(s));
-  grid_.sort({s.particles});
-  all_interact_ = s.description.eulerians == s.particles && !touching(s);
+  if (s.settings.axisymmetric) {
+    sort_with_images(s);
+  } else {
+    grid_.find_cells(s.position, 3, s.particles, s.dimension, widest_, origin_of_cells(s));
+    grid_.sort({s.particles});
+  }
+  all_interact_ = s.description.eulerians == s.particles && !touching(s) && !s.settings.axisymmetric;
   if (all_interact_) return;
   marks_.start(grid_.shape(), s.dimension);
-  for (Index i = 0; i < s.particles; ++i) marks_.add(grid_.keys()[i], s.body_of[i], s.description.eulerian[i] != 0);
+  for (Index k = 0; k < grid_.count(); ++k) {
+    Index const i = grid_.slots()[k];
+    marks_.add(grid_.cells()[k], s.body_of[i], s.description.eulerian[i] != 0);
+  }
   marks_.finish(touching(s));
+}
+
+/// Sorts all particles, and images of those that are near the axis.
+void SpatialLists::sort_with_images(System const& s) {
+  present_.clear();
+  for (Index i = 0; i < s.particles; ++i) present_.push_back(i);
+  for (Index i = 0; i < s.particles; ++i)
+    if (s.position[std::ptrdiff_t{3} * i] < widest_) present_.push_back(s.image_of(i));
+  SlotList const present{static_cast<Index>(present_.size()), present_.data()};
+  grid_.lay(bounds_of(s.position, 3, present, s.dimension), s.all_slots(), s.dimension, widest_, origin_of_cells(s),
+            [&](std::size_t axis) {
+              std::vector<double> along;
+              for (Index const i : present_) along.push_back(s.position[3 * at(i) + axis]);
+              return along;
+            });
+  grid_.find_cells(s.position, 3, present);
+  grid_.sort(present);
 }
 
 /// Sorts local particles and spatial ghosts into cells.
@@ -41,7 +65,7 @@ void SpatialLists::sort_with_ghosts(System const& s, RemoteParticles const& othe
 }
 
 void SpatialLists::choose_targets(System const& s) {
-  if (near_.size() != at(s.particles)) near_ = LazyZeroArray<std::uint8_t>(at(s.particles));
+  if (near_.size() != at(s.all_slots())) near_ = LazyZeroArray<std::uint8_t>(at(s.all_slots()));
   group_.resize(at(grid_.count()) + 16);
   for (Index k = 0; k < grid_.count(); ++k) {
     Index const slot = grid_.slots()[k], cell = grid_.cells()[k];
@@ -55,6 +79,8 @@ void SpatialLists::choose_targets(System const& s) {
     if ((marks_.reads(cell) & HaloCells::flow) != 0) spatial_.target.push_back(k);
     if ((marks_.reads(cell) & HaloCells::touch) != 0) contact_.target.push_back(k);
   }
+  for (Index const i : present_)
+    if (Index const source = s.source_of(i); source != i && near_[at(i)] != 0) near_[at(source)] = near_[at(i)];
 }
 
 void SpatialLists::build(System const& s, RemoteParticles const& others, Backend const& backend, double& busy) {

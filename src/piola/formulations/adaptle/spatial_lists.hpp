@@ -36,6 +36,7 @@ class SpatialLists {
     Index capacity = 64;
   };
   void sort_all(System const& system);
+  void sort_with_images(System const& system);
   void sort_with_ghosts(System const& system, RemoteParticles const& others);
   void choose_targets(System const& system);
   void make_room(System const& system);
@@ -45,6 +46,7 @@ class SpatialLists {
   CellList grid_;
   HaloCells marks_;
   LazyZeroArray<std::uint8_t> near_;  ///< per sorted slot: whether another particle reads its record
+  std::vector<Index> present_;        ///< axisymmetric bodies: slots of particles, and of images near the axis
   std::vector<std::int32_t> group_;
   std::vector<float> reach_;
   List spatial_, contact_;

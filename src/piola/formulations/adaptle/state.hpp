@@ -26,8 +26,19 @@ enum class ContactLaw {
   as_published  ///< as kernel, with eps = K V_a V_b
 };
 
+/// The radius of a ring for its section and for forces between rings: of rings at the axis that of the middle of their
+/// section. spacing: dp.
+template <class T>
+PIOLA_INLINE_FN T ring_radius(T const& radius, double spacing) {
+  T const least(0.25 * spacing);
+  return maximum(maximum(radius, -radius), least);
+}
+
 /// Index in the lists of reference neighbours: tens of millions of particles have more pairs than an Index can count.
 using Offset = std::int64_t;
+
+/// The particle of an image behind the axis, or the particle itself. The image of slot i is slot particles + 1 + i.
+PIOLA_INLINE_FN Index source_of(Index slot, Index particles) { return slot > particles ? slot - particles - 1 : slot; }
 
 /// Additions of a case to the law of a point, per slot; null: none.
 struct LawFactors {
@@ -60,7 +71,8 @@ struct BodyConstants {
   double spacing = 1;         ///< dp [m]
   double rho0 = 1;            ///< [kg/m3]
   double least_rho = 0;       ///< minimum of Eulerian particles: mass spread over the whole kernel [kg/m3]
-  double c = 0;               ///< of the viscosity [m/s]
+  bool axisymmetric = false;
+  double c = 0;  ///< of the viscosity [m/s]
   double alpha = 1, beta = 2;
   double artificial_stress = 0;    ///< epsilon
   double hourglass = 0;            ///< damping of velocities that gradients do not see
@@ -147,11 +159,21 @@ struct MaterialRows {
   StencilTable stencil;       ///< s without volumes, and W
 };
 
+/// Changes of gradients along the radius near the axis (AxisCorrection). Null: none.
+struct AxisCorrectionTable {
+  Offset const* begin = nullptr;  ///< per slot, one more at the end
+  Index const* neighbour = nullptr;
+  double const *own = nullptr, *back = nullptr;  ///< per pair: of the particle, and of the neighbour at the particle
+};
+
 struct MaterialTable {
   Offset const* begin = nullptr;  ///< per slot, one more at the end: reference neighbours, padded to whole lanes
   Index const* neighbour = nullptr;
-  bool used = false;                        ///< whether some particle is not fully Eulerian
-  double* record = nullptr;                 ///< of bodies with lists; a filler after the last
+  bool used = false;             ///< whether some particle is not fully Eulerian
+  double* record = nullptr;      ///< of bodies with lists; a filler after the last, then images
+  Index images = 0;              ///< behind the axis
+  Index const* image = nullptr;  ///< their particles
+  AxisCorrectionTable axis;
   MaterialRows rows;                        ///< of the body of the current loop
   float const* gradient = nullptr;          ///< per pair: -W'(r)/r in the reference configuration, equal from both ends
   double const *s = nullptr, *W = nullptr;  ///< as `gradient`, in double, with plain gradients; W(r), as published
@@ -183,7 +205,7 @@ struct Settings {
   MixedStress mixed_stress = MixedStress::both;
   piola::Kernel const* kernel = nullptr;  ///< of sums over neighbours, one of LaneKernels
   bool corrected = false;                 ///< spatial sums
-  bool plane_stress = false, artificial_stress = false;
+  bool plane_stress = false, axisymmetric = false, artificial_stress = false;
   int exponent = 4;         ///< n of the artificial stress
   double fallback = 1e300;  ///< C_f
   double cfl = 0.3;
@@ -214,6 +236,7 @@ struct System {
   Fields field;
   Correction* correction = nullptr;  ///< spatial
   double* position = nullptr;        ///< at half time, 3 per slot: input of the cell grid
+  double smallest_radius = 0;        ///< particles nearer to the axis are on it at the start [m]
   DescriptionTable description;
   SpatialTable spatial;
   MaterialTable material;
@@ -230,6 +253,12 @@ struct System {
     Range const of_body = part[body_of[slot]];
     return slot >= of_body.first && slot < of_body.last;
   }
+  /// Axisymmetric bodies: each particle has an image behind the axis, whose slot follows those of all particles and a
+  /// filler. source_of(): the particle of an image, or the particle itself.
+  Index image_of(Index slot) const { return particles + 1 + slot; }
+  Index source_of(Index slot) const { return adaptle::source_of(slot, particles); }
+  /// Slots with those of images.
+  Index all_slots() const { return settings.axisymmetric ? 2 * particles + 1 : particles; }
   /// Reference position of a local particle or a ghost [m].
   std::array<double, 3> reference_position(Index slot) const { return point_at(field.X, slot, 3); }
 };

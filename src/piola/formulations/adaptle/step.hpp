@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/domain/communicator.hpp"
 #include "piola/domain/first_failure.hpp"
+#include "piola/formulations/adaptle/axis_images.hpp"
 #include "piola/formulations/adaptle/contact_sweep.hpp"
 #include "piola/formulations/adaptle/finish_pass.hpp"
 #include "piola/formulations/adaptle/force_sweep.hpp"
@@ -24,9 +25,13 @@ struct Step {
       with_solid(s.body[b].material, [&](auto const& law) {
         exec::for_each_block(body_range(b), Predict<D, std::decay_t<decltype(law)>>(law, s, material_of(b), dt));
       });
+    if (s.settings.axisymmetric)
+      exec::for_each_block(Range{0, s.particles},
+                           ImageMotion{write(s.field.x), write(s.field.v_half), s.position, s.particles});
   }
 
   void deform() const {
+    put_images(0, MaterialRecord<2>::A);
     with_form([&](auto form) { deform_as<form()>(); });
   }
 
@@ -48,12 +53,16 @@ struct Step {
   }
 
   void sweep() const {
+    put_images(MaterialRecord<2>::A, MaterialRecord<2>::values(s.settings.equations));
+    if (s.settings.axisymmetric && s.spatial.record != nullptr)
+      exec::for_each_block(Range{0, s.spatial.sources}, ImageSpatialRecords{s.spatial, s.particles});
     with_kernel(*s.settings.kernel, LaneKernels{}, [&]<class Shape>() { sweep_space<Shape>(); });
     with_form([&](auto form) { add_material_forces<form()>(); });
     Fields const& f = s.field;
-    exec::for_each_block(Range{0, s.contact.targets},
-                         ContactSweep<D>{s.contact, s.spatial.slot, s.body, s.body_of, s.bodies, read(f.x),
-                                         read(f.v_half), read(f.volume_half), write(f.force), write(f.contact)});
+    exec::for_each_block(
+        Range{0, s.contact.targets},
+        ContactSweep<D>{s.contact, s.spatial.slot, s.body, s.body_of, s.bodies, read(f.x), read(f.v_half),
+                        read(f.volume_half), write(f.force), write(f.contact), s.settings.axisymmetric, s.particles});
     if (s.rigid.count > 0) push_off_shapes();
   }
 
@@ -81,14 +90,22 @@ struct Step {
   }
 
  private:
+  /// Puts components of the records of images for sums over reference neighbours.
+  void put_images(int first, int last) const {
+    if (!s.material.used) return;
+    exec::for_each_block(
+        Range{0, s.material.images},
+        ImageMaterialRecords{s.material, s.particles, MaterialRecord<2>::stride(s.settings.equations), first, last});
+  }
+
   /// Block by block of each body: blocks are its tiles.
   void push_off_shapes() const {
     double* action = s.rigid.action;
     for (int b = 0; b < s.bodies; ++b) {
       Range const r = body_range(b);
-      exec::for_each_block(
-          r, RigidSweep<D>{s.rigid.pose, s.rigid.count, s.contact.scale, s.body, s.body_of, read(s.field.x),
-                           read(s.field.v_half), write(s.field.force), write(s.field.contact), s.rigid.power, action});
+      exec::for_each_block(r, RigidSweep<D>{s.rigid.pose, s.rigid.count, s.contact.scale, s.body, s.body_of,
+                                            read(s.field.x), read(s.field.v_half), write(s.field.force),
+                                            write(s.field.contact), s.rigid.power, action, s.settings.axisymmetric});
       action += std::ptrdiff_t{6} * s.rigid.count * exec::block_count(r);
     }
   }

@@ -38,7 +38,8 @@ class BoundOfParticle {
     gather(one, scratch);
     Mat<3> const L = scratch.gradient(one);
     bool const material = s_.material.used && end_.phi.at(i) < 1;
-    Mat<3> const inverse_F = material ? inverse(end_.F.template matrix<double>(i)) : identity<3, double>();
+    Mat<3> inverse_F = material ? inverse(end_.F.template matrix<double>(i)) : identity<3, double>();
+    if (s_.settings.axisymmetric) inverse_F(2, 2) = 1;
     Vec<3> const a = end_.a.template vector<3, double>(i);
     bool const touching = end_.contact.data != nullptr;
     return {.step = end_.limit(one, scratch, L, inverse_F),

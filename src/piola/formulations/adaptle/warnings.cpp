@@ -152,6 +152,7 @@ void warn_of_bending(Assembly const& assembly, std::size_t body, BodyOptions con
 Options options_of(Assembly const& whole, std::vector<std::size_t> const& group) {
   Assembly own;
   own.particles.dimension = whole.particles.dimension;
+  own.particles.axisymmetric = whole.particles.axisymmetric;
   own.cfl = whole.cfl;
   own.contact = whole.contact;
   for (std::size_t const b : group) {

@@ -24,6 +24,7 @@ ParticleSet particles_of(ParticleSet const& whole, FormulationGroup const& part)
   if (blocks.size() == whole.bodies.size()) return whole;  // copy-on-write
   ParticleSet set;
   set.dimension = whole.dimension;
+  set.axisymmetric = whole.axisymmetric;
   set.X = gathered(whole.X.seen(), blocks);
   set.lattice_index = gathered(whole.lattice_index.seen(), blocks);
   set.volume = gathered(whole.volume.seen(), blocks);
