@@ -81,7 +81,11 @@ every = "10 ms"
 
 
 def able_cases():
-    return [file for file in sorted((SOURCE / "cases").rglob("case.toml")) if SHARED.search(file.read_text())]
+    """Axisymmetric bodies of adaptle are refused on several ranks."""
+    def able(text):
+        return SHARED.search(text) and not ("axisymmetric" in text and 'name = "adaptle"' in text)
+
+    return [file for file in sorted((SOURCE / "cases").rglob("case.toml")) if able(file.read_text())]
 
 
 def first_step(file, work, settings=()):

@@ -94,6 +94,7 @@ void observe_body(Particles const& particles, ParticleSet const& set, int number
   std::vector<double> pressures(lines != nullptr ? 0 : static_cast<std::size_t>(body.last - body.first));
   exec::ReproducibleSums<1>& internal = sums.internal.emplace_back();
   o.begin_body(body.name);
+  o.axisymmetric = set.axisymmetric;
   each_particle(s, number, [&](Index i, double pressure) {
     double const mass = f.mass.at(i), energy = f.energy.at(i);
     if (lines != nullptr)
