@@ -27,7 +27,7 @@ TEST(Bench, MeasuresEachRowBesideItsScalarPath) {
   auto const rows = measure_small({"nodal/rates", "taylor_sph/bar", "adaptle/plate"});
   std::size_t const backends =
       rows.front().backend != "scalar" && exec_host::usable_backends().back() == "scalar" ? 2 : 1;
-  ASSERT_EQ(rows.size(), backends * 8);
+  ASSERT_EQ(rows.size(), backends * 11);
   EXPECT_EQ(rows.front().particles, 8 * 8 * 8);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     auto const& row = rows[k];

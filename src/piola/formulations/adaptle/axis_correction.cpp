@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/adaptle/axis_correction.hpp"
 #include "piola/base/contracts.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
 #include "piola/math/tensor.hpp"
 #include <algorithm>
@@ -172,6 +173,10 @@ std::vector<double> AxisCorrection::solve(Sums const& sums) {
       residual_[i] -= now / curvature * image[i];
     }
   }
+  if (!(squares(unweighted) <= goal))
+    throw InputError(
+        "adaptle: geometry is \"axisymmetric\", and gradients near the axis cannot be corrected (the solution does not "
+        "converge) - this is an error of the program: please report it with the case; another spacing may avoid it");
   return mu;
 }
 

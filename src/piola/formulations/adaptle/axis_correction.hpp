@@ -9,7 +9,7 @@ namespace piola::adaptle {
 
 /// Changes of gradients near the axis, with which a uniform stress leaves no force on the particles there
 /// (docs/theory/adaptle.md, "Axisymmetric bodies"). The volumes of rings, weights of their stress, have a kink on the
-/// axis.
+/// axis. The constructor throws InputError if they cannot be found.
 class AxisCorrection {
  public:
   /// Sums over reference neighbours, of which those beyond `particles` are images behind the axis.
