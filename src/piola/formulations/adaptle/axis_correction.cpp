@@ -159,7 +159,8 @@ std::vector<double> AxisCorrection::solve(Sums const& sums) {
   constexpr double tolerance = 1e-4;
   double const goal = tolerance * tolerance * squares(unweighted);
   double before = 0;
-  for (int step = 0; step < 1000 && squares(unweighted) > goal; ++step) {
+  constexpr int most_steps = 20000;  // 1,700 for 12 particles per radius of a rod in a target of 96
+  for (int step = 0; step < most_steps && squares(unweighted) > goal; ++step) {
     double const now = squares([&](std::size_t i) { return 1 / diagonal[i]; });
     for (std::size_t i = 0; i < n; ++i)
       direction[i] = residual_[i] / diagonal[i] + (step > 0 ? now / before * direction[i] : 0);
