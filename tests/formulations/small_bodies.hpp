@@ -176,6 +176,27 @@ inline SavedState saved(Formulation const& f) {
   return s;
 }
 
+/// Six steps of the body that make() returns end with the same bits when repeated, on other numbers of threads and when
+/// each step continues from a checkpoint.
+template <class Make>
+void expect_same_bits_of_runs(Make const& make) {
+  std::vector<Values> ends;
+  for (int const threads : {1, 1, 2, 3, 7}) {
+    Threads const keep(threads);
+    Assembly const a = make();
+    auto f = make_formulation(a);
+    for (int k = 0; k < 6; ++k) {
+      f->step(0, f->stable_time_step());
+      if (ends.size() < 2) continue;  // without a pause; then with one thread and with more
+      SavedState s = saved(*f);
+      f = make_formulation(a);
+      f->load(s);
+    }
+    ends.push_back(sample(*f, "Velocity", a.particles.X.size()));
+    EXPECT_EQ(ends.back(), ends.front());
+  }
+}
+
 /// The unit box, tumbling and stretching, so that no term of a step vanishes.
 inline Assembly tumbling_box(int dimension, int n, double jitter = 0) {
   Assembly a = assemble(unit_box(dimension, n, jitter));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/drawing/feature_lines.hpp"
 #include "piola/base/contracts.hpp"
+#include "piola/drawing/vector_math.hpp"
 #include "piola/neighbours/cell_facets.hpp"
 #include <algorithm>
 #include <cmath>
@@ -52,7 +53,6 @@ std::vector<FacetEdge> edges_of_facets(ReferenceMesh const& mesh) {
 
 /// Sorts the edges into those that are sharp, which it returns, and mesh.round.
 std::vector<std::array<Index, 2>> sharp_edges(ReferenceMesh& mesh) {
-  constexpr double cosine = 0.574;  // 55 degrees
   constexpr double flat = 1 - 1e-9;
   auto const edges = edges_of_facets(mesh);
   std::vector<std::array<Index, 2>> sharp;
@@ -61,7 +61,7 @@ std::vector<std::array<Index, 2>> sharp_edges(ReferenceMesh& mesh) {
     double bend = 1;
     for (; end < edges.size() && edges[end].ends == edges[k].ends; ++end)
       bend = std::min(bend, dot(edges[k].normal, edges[end].normal));
-    if (mesh.dimension == 2 || bend < cosine)
+    if (mesh.dimension == 2 || bend < cosine_of_edge)
       sharp.push_back(edges[k].ends);
     else if (end == k + 2 && bend < flat)
       mesh.round.push_back({edges[k].ends, {edges[k].normal, edges[k + 1].normal}});

@@ -11,7 +11,6 @@
 namespace piola {
 
 inline constexpr double degrees_per_segment = 5;  ///< of surfaces, at most
-inline constexpr double cosine_of_edge = 0.574;   ///< edges of more than 55 degrees are sharp
 
 /// Rotates a point of the section about the axis: (x cos a, y, -x sin a).
 struct Rotation {

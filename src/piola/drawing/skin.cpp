@@ -235,7 +235,6 @@ struct Incidence {
 /// Normals at corners: area-weighted sum over the facets at the corner whose angle to this one is below that of a
 /// feature edge.
 void smooth_normals(Skin& skin) {
-  constexpr double cosine_of_edge = 0.574;  // 55 degrees
   auto const count = static_cast<Index>(skin.facets.size());
   std::vector<Point3> area(skin.facets.size());
   exec_host::parallel_for(count, [&](Index k) {

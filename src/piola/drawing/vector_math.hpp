@@ -23,6 +23,8 @@ inline Point3 unit(Point3 const& a) {
   double const size = length(a);
   return size > 0 ? Point3{a[0] / size, a[1] / size, a[2] / size} : a;
 }
+/// Cosine of the angle between the normals of two facets, 55 degrees, above which their common edge is drawn sharp.
+inline constexpr double cosine_of_edge = 0.574;
 inline bool finite(Point3 const& a) { return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]); }
 
 }  // namespace piola

@@ -120,23 +120,12 @@ TEST_P(Mirrored, ABodyFallsAlongItsPlane) {
 }
 
 TEST_P(Mirrored, RunsContinueAndRepeatWithTheSameBits) {
-  std::vector<Values> ends;
-  for (int const threads : {1, 1, 2, 3, 7}) {
-    Threads const keep(threads);
+  expect_same_bits_of_runs([&] {
     Assembly a = assembly(box_between(GetParam().dimension, {}, ones(1), {5, 5, 5}));
     for (int axis = 0; axis < GetParam().dimension; ++axis) a.mirrors.push_back({0, axis, axis == 1});
     give_velocity(a, [](Point const& X) { return Point{9 * X[0], 3 - X[1] * X[1], X[2]}; });
-    auto f = make_formulation(a);
-    for (int k = 0; k < 6; ++k) {
-      f->step(0, f->stable_time_step());
-      if (ends.size() < 2) continue;  // without a pause; then with one thread and with more
-      SavedState s = saved(*f);
-      f = make_formulation(a);
-      f->load(s);
-    }
-    ends.push_back(sample(*f, "Velocity", a.particles.X.size()));
-    EXPECT_EQ(ends.back(), ends.front());
-  }
+    return a;
+  });
 }
 
 /// On every machine; the portable one reads lists without lanes.

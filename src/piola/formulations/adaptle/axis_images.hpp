@@ -11,6 +11,21 @@ namespace piola::adaptle::inline PIOLA_BACKEND {
 /// Whether component (p, q) of a tensor changes its sign behind the axis.
 PIOLA_FN bool turns(int p, int q) { return (p == 0) != (q == 0); }
 
+/// Visits the weights near the axis of the marked particles of a group: f(lane, particle, neighbour, whether the
+/// neighbour's image is meant, place of the weight in the table, own weight). The own weight of a broken neighbour is
+/// 0.
+template <class F>
+PIOLA_FN void for_each_axis_weight(AxisCorrectionTable const& table, Index particles, Components const& active, Group g,
+                                   Lanes const& marks, F const& f) {
+  for (int l = 0; l < g.count; ++l) {
+    Index const i = g.first + l;
+    for (Offset k = table.begin[i]; k < table.begin[i + 1] && lane(marks, l) > 0; ++k) {
+      Index const j = source_of(table.neighbour[k], particles);
+      f(l, i, j, j != table.neighbour[k], k, active.at(j) > 0 ? table.own[k] : 0.0);
+    }
+  }
+}
+
 /// The gradients along the radius that a change of weights near the axis adds to those of a group of particles, of
 /// displacements and of velocities at half time; zero in lanes that are not marked.
 struct AxisGradients {
@@ -20,18 +35,14 @@ struct AxisGradients {
 
   PIOLA_FN void operator()(Group g, Lanes const& marks, Lanes (&of_u)[2], Lanes (&of_v)[2]) const {
     double u[2][lane_count]{}, v[2][lane_count]{};
-    for (int l = 0; l < g.count; ++l) {
-      Index const i = g.first + l;
-      for (Offset k = table.begin[i]; k < table.begin[i + 1] && lane(marks, l) > 0; ++k) {
-        Index const j = source_of(table.neighbour[k], particles);
-        double const weight = active.at(j) > 0 ? table.own[k] : 0;
-        for (int p = 0; p < 2; ++p) {
-          double const sign = j != table.neighbour[k] && p == 0 ? -1 : 1;
-          u[p][l] += weight * (sign * (x.at(j, p) - X.at(j, p)) - (x.at(i, p) - X.at(i, p)));
-          v[p][l] += weight * (sign * v_half.at(j, p) - v_half.at(i, p));
-        }
+    auto const add = [&](int l, Index i, Index j, bool is_image, Offset, double weight) {
+      for (int p = 0; p < 2; ++p) {
+        double const sign = is_image && p == 0 ? -1 : 1;
+        u[p][l] += weight * (sign * (x.at(j, p) - X.at(j, p)) - (x.at(i, p) - X.at(i, p)));
+        v[p][l] += weight * (sign * v_half.at(j, p) - v_half.at(i, p));
       }
-    }
+    };
+    for_each_axis_weight(table, particles, active, g, marks, add);
     for (int p = 0; p < 2; ++p) {
       of_u[p] = load<Lanes>(u[p]);
       of_v[p] = load<Lanes>(v[p]);
@@ -47,17 +58,13 @@ struct AxisForces {
 
   PIOLA_FN void operator()(Group g, Lanes const& marks, Lanes (&force)[2]) const {
     double sum[2][lane_count]{};
-    for (int l = 0; l < g.count; ++l) {
-      Index const i = g.first + l;
-      for (Offset k = table.begin[i]; k < table.begin[i + 1] && lane(marks, l) > 0; ++k) {
-        Index const j = source_of(table.neighbour[k], particles);
-        double const weight = active.at(j) > 0 ? table.own[k] : 0;
-        for (int p = 0; p < 2; ++p) {
-          double const sign = j != table.neighbour[k] && p == 1 ? -1 : 1;
-          sum[p][l] += weight * radial_stress.at(i, p) - table.back[k] * sign * radial_stress.at(j, p);
-        }
+    auto const add = [&](int l, Index i, Index j, bool is_image, Offset k, double weight) {
+      for (int p = 0; p < 2; ++p) {
+        double const sign = is_image && p == 1 ? -1 : 1;
+        sum[p][l] += weight * radial_stress.at(i, p) - table.back[k] * sign * radial_stress.at(j, p);
       }
-    }
+    };
+    for_each_axis_weight(table, particles, active, g, marks, add);
     for (int p = 0; p < 2; ++p) force[p] = load<Lanes>(sum[p]);
   }
 };
