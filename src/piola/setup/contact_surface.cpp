@@ -85,6 +85,7 @@ contact::Surface contact_surface(ShapeSpec const& shape, ParticleSet const& part
     add_patch_points(shape, particles, body, surface);
     return surface;
   }
+  surface.is_box = shape.kind == Kind::box;
   for (Face const& face : faces_of(shape))
     for (FaceWeight const& share : face_weights(shape, particles, body, face)) {
       Vec<3> const normal{{share.normal[0], share.normal[1], share.normal[2]}};

@@ -36,6 +36,20 @@ TEST(RigidSurface, NormalIsTheSlopeOfTheDistance) {
     }
 }
 
+TEST(RigidSurface, ChangeOfTheNormalIsItsSlope) {
+  Vec<3> const along{{0.3, -0.5, 0.7}};
+  for (Kind const kind : {Kind::plane, Kind::sphere, Kind::cylinder, Kind::box})
+    for (Vec<3> const& x : {Vec<3>{{-0.3, -0.5, 0.9}}, Vec<3>{{1.0, -0.6, 0.4}}, Vec<3>{{-0.5, 0.1, 1.2}}}) {
+      RigidSurface const s = shape(kind);
+      Distance const d = distance_from(s, x);
+      ASSERT_LT(d.value, 0) << "inside";
+      Vec<3> const change = normal_change(s, x, d.normal, along);
+      constexpr double h = 1e-6;
+      Vec<3> const up = distance_from(s, x + h * along).normal, down = distance_from(s, x - h * along).normal;
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(change[c], (up[c] - down[c]) / (2 * h), 1e-8) << static_cast<int>(kind);
+    }
+}
+
 TEST(RigidSurface, DistancesOfKnownPoints) {
   RigidSurface box = shape(Kind::box, 2);
   EXPECT_NEAR(distance_from(box, {{0.1, 0.2, 0}}).value, -1, 1e-15) << "in the middle";

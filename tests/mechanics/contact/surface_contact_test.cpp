@@ -133,20 +133,22 @@ TEST_P(InDimensions, PointsThatGoThroughABodyAreCounted) {
 TEST_P(InDimensions, RigidShapesTakeTheReaction) {
   int const D = GetParam();
   Blocks const blocks(D, -50);
-  RigidSurface plane;
-  plane.dimension = D;
-  plane.axis = {{0, 0, 0}};
-  plane.axis[D - 1] = 1;
-  plane.centre[D - 1] = 0.1;  // 0.1 above the lower face of block 0
-  SurfaceContactSystem system = blocks.system({plane});
-  auto const x = places(system, blocks.set);
-  system.evaluate(x, 1e-3);
-  Vec<3> force;
-  for (Vec<3> const& f : system.forces()) force = force + f;
-  double const area = D == 3 ? 25 : 5, k = 0.5 * 2e6;
-  EXPECT_NEAR(force[D - 1] / (-layer(-0.1, k, 0.5).slope * area), 1, 1e-12);
-  EXPECT_NEAR(system.totals().energy / (layer(-0.1, k, 0.5).energy * area), 1, 1e-12);
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(system.resultant_on_rigid(0).force[c], -force[c], 1e-12 * force[D - 1]);
+  for (double const depth : {0.1, 0.6}) {  // at 0.6 points of the side faces are behind the plane as well
+    RigidSurface plane;
+    plane.dimension = D;
+    plane.axis = {{0, 0, 0}};
+    plane.axis[D - 1] = 1;
+    plane.centre[D - 1] = depth;  // above the lower face of block 0
+    SurfaceContactSystem system = blocks.system({plane});
+    auto const x = places(system, blocks.set);
+    system.evaluate(x, 1e-3);
+    Vec<3> force;
+    for (Vec<3> const& f : system.forces()) force = force + f;
+    double const area = D == 3 ? 25 : 5, k = 0.5 * 2e6;
+    EXPECT_NEAR(force[D - 1] / (-layer(-depth, k, 0.5).slope * area), 1, 1e-12) << depth;
+    EXPECT_NEAR(system.totals().energy / (layer(-depth, k, 0.5).energy * area), 1, 1e-12) << depth;
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(system.resultant_on_rigid(0).force[c], -force[c], 1e-12 * force[D - 1]);
+  }
 }
 
 TEST_P(InDimensions, ForcesDoNotDependOnWhenListsWereMadeOrOnThreads) {

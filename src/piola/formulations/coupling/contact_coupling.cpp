@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace piola {
@@ -31,6 +32,7 @@ void ContactCoupling::start(Formulations const& formulations) {
   particles_.read_masses(formulations);
   particles_.read_motion(formulations);
   system_.set_masses(particles_.surface_masses());
+  fit_areas(formulations);
   system_.drop(particles_.find_lost_surfaces(formulations));
   std::vector<Vec<3>> const& x = particles_.x();
   ties_.start(system_, x, particles_.masses());
@@ -43,6 +45,35 @@ void ContactCoupling::start(Formulations const& formulations) {
   colours_.evaluate(x, particles_.masses());
   sum_forces();
   closing_ = contact_time_step();
+}
+
+/// Points on flat faces get the areas by which a uniform pressure causes uniform stress, in sum those of the faces. A
+/// body in which such an area is less than a quarter of the tributary area, on irregular clouds, keeps the tributary
+/// areas.
+void ContactCoupling::fit_areas(Formulations const& formulations) {
+  constexpr double least = 0.25;
+  contact::SurfacePoints& points = system_.points();
+  for (std::size_t b = 0; b < points.surfaces().size(); ++b) {
+    if (!points.surfaces()[b].is_box) continue;
+    Index const first = points.number_of(b, 0), count = static_cast<Index>(points.surfaces()[b].points.size());
+    std::vector<ContactParticles::FacePlace> places;
+    for (Index k = first; k < first + count; ++k)
+      places.push_back({points.particle(k), array_of(points[k].N), points[k].area});
+    particles_.read_face_areas(formulations, places);
+    std::map<std::array<double, 3>, std::array<double, 2>> sums;  // before, after; by normal
+    bool usable = true;
+    for (Index k = 0; k < count; ++k) {
+      auto const& [at, normal, area] = places[static_cast<std::size_t>(k)];
+      double const before = points[first + k].area;
+      usable = usable && area > least * before;
+      sums[normal][0] += before;
+      sums[normal][1] += area;
+    }
+    for (Index k = 0; k < count && usable; ++k) {
+      auto const& [at, normal, area] = places[static_cast<std::size_t>(k)];
+      points.set_area(first + k, area * sums[normal][0] / sums[normal][1]);
+    }
+  }
 }
 
 /// Contact and ties together.

@@ -67,6 +67,7 @@ class ContactCoupling {
   void damp_chatter(Formulations const& formulations, double time);
   void add_to_energy_balance(double half);
   double contact_time_step() const;
+  void fit_areas(Formulations const& formulations);
   void sum_forces();
 
   std::vector<std::string> names_;  ///< of bodies

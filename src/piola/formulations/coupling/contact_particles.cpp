@@ -76,6 +76,32 @@ void ContactParticles::read_motion(Formulations const& formulations) {
   place_images();
 }
 
+void ContactParticles::read_face_areas(Formulations const& formulations, std::vector<FacePlace>& places) const {
+  std::map<Index, Image const*> image_of;
+  for (Image const& image : images_) image_of[image.at] = &image;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    std::map<Index, std::int64_t> local;
+    for (std::size_t k = 0; k < groups_[g].at.size(); ++k) local[groups_[g].at[k]] = groups_[g].local[k];
+    std::vector<std::size_t> numbers;
+    std::vector<std::int64_t> ids;
+    std::vector<std::array<double, 3>> normals;
+    std::vector<double> areas;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      auto const image = image_of.find(places[k].at);
+      auto const found = local.find(image == image_of.end() ? places[k].at : image->second->source);
+      if (found == local.end()) continue;
+      numbers.push_back(k);
+      ids.push_back(found->second);
+      normals.push_back(places[k].normal);
+      if (image != image_of.end())
+        for (std::size_t c = 0; c < 3; ++c) normals.back()[c] *= image->second->sign[c];
+      areas.push_back(places[k].area);
+    }
+    formulations[g]->read_face_areas(ids, normals, areas);
+    for (std::size_t k = 0; k < numbers.size(); ++k) places[numbers[k]].area = areas[k];
+  }
+}
+
 void ContactParticles::place_images() {
   for (Image const& image : images_) {
     auto const at = static_cast<std::size_t>(image.at), source = static_cast<std::size_t>(image.source);

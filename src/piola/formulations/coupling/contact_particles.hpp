@@ -43,6 +43,13 @@ class ContactParticles {
 
   void read_masses(Formulations const& formulations);
   void read_motion(Formulations const& formulations);
+  /// Places of a body's flat faces and their areas, see CoupledParticles::read_face_areas().
+  struct FacePlace {
+    Index at;                      ///< index of the particle
+    std::array<double, 3> normal;  ///< outward unit vector
+    double area;                   ///< [m^(D-1)]
+  };
+  void read_face_areas(Formulations const& formulations, std::vector<FacePlace>& places) const;
   /// Particles whose formulation now keeps them apart from other bodies itself, as marks by index into
   /// SurfaceContactSystem::ids(); empty if there are no new ones.
   std::vector<char> find_lost_surfaces(Formulations const& formulations);

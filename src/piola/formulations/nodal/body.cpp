@@ -97,9 +97,10 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
 NodalBody::~NodalBody() = default;
 
 void NodalBody::make_reference(Assembly const& assembly, Backend const& backend) {
-  reference_ = nodal::make_reference({*set_, body_, order_, assembly.loads, assembly.supports, materials_.densities(),
-                                      options_.least_mass, backend, images_.empty() ? nullptr : &images_,
-                                      comm::is_parallel() ? std::optional(state_.slots) : std::nullopt});
+  reference_ =
+      nodal::make_reference({*set_, body_, order_, assembly.loads, assembly.supports, materials_.densities(),
+                             options_.least_mass, backend, images_.empty() ? nullptr : &images_,
+                             comm::is_parallel() ? std::optional(state_.slots) : std::nullopt, assembly.coupled});
   if (!images_.empty() && !reference_.held.empty())
     throw InputError(fmt::format(
         "body '{}': a support that holds the surface of a patch does not go together with mirror planes, of which the "
@@ -154,6 +155,8 @@ void NodalBody::make_boundary(Assembly const& assembly, std::size_t body) {
   auto& r = reference_;
   // Masses of all particles on all ranks for contact, or if every rank solves for held surface places.
   if (shared() && (assembly.coupled || !r.held.empty())) DistributedSlots{slots(), particles()}.complete(r.mass, 1);
+  if (shared())
+    for (LazyZeroArray<double>& areas : r.face_areas) DistributedSlots{slots(), particles()}.complete(areas, 1);
   std::optional<Range> own;
   if (shared()) own = state_.slots;
   boundary_.emplace(assembly, body, Boundary::BodyInput{order_, r.mass, r.parts, r.centroid, r.held, own});

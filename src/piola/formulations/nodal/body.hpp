@@ -93,6 +93,12 @@ class NodalBody {
   double mass(Index slot) const { return reference_.own_fraction(slot) * value(state_.mass, slot); }
   /// Mass of any particle [kg]. On all ranks if surface contact acts on the body.
   double replicated_mass(Index slot) const { return reference_.mass[static_cast<std::size_t>(slot)]; }
+  /// Area of a particle on a flat face of the body, a box, for contact [m^(D-1)]; as replicated_mass().
+  double face_area(Index slot, std::array<double, 3> const& normal) const {
+    std::size_t const axis = normal[0] * normal[0] > 0.5 ? 0 : normal[1] * normal[1] > 0.5 ? 1 : 2;
+    auto const& areas = reference_.face_areas[2 * axis + (normal[axis] > 0 ? 1 : 0)];
+    return reference_.own_fraction(slot) * areas[static_cast<std::size_t>(slot)];
+  }
   double volume(Index slot) const { return reference_.own_fraction(slot) * value(state_.V, slot); }
   static double value(FieldRef const& f, Index slot, int c = 0) { return value_at(f, slot, c); }
 

@@ -107,17 +107,38 @@ void check_area(SetUp const& from, Load const& load, WholeArea const& found, Laz
   checks.push_back({load.name + ".area_error", error, warning});
 }
 
+/// Area of a patch of size one in spacings h, by its axis [m^(D-1)].
+template <int D>
+Point unit_areas(SetUp const& from, std::array<double, 3> const& h) {
+  Point area{1, 1, 1};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t c = 0; c < static_cast<std::size_t>(D); ++c) area[axis] *= c == axis ? 1 : h[c];
+  if (from.set.axisymmetric)
+    for (double& size : area) size *= 2 * std::numbers::pi * h[0];
+  return area;
+}
+
 }  // namespace
+
+template <int D>
+std::vector<LazyZeroArray<double>> face_areas(SetUp const& from, SurfaceIntegrals<D> const& surface,
+                                              std::array<double, 3> const& h) {
+  Point const area = unit_areas<D>(from, h);
+  std::vector<LazyZeroArray<double>> all;
+  for (int axis = 0; axis < D; ++axis)
+    for (bool const upper : {false, true})
+      all.push_back(surface.shares([&](SurfacePatch const& p) {
+        bool const on_face = p.outermost && p.axis == axis && p.upper == upper;
+        return on_face ? scaled_moments(p.extent, area[static_cast<std::size_t>(axis)]) : Moments{};
+      }));
+  return all;
+}
 
 template <int D>
 std::vector<LazyZeroArray<FacePart>> load_integrals(SetUp const& from, LocalFits<D> const& fits,
                                                     SurfaceIntegrals<D> const& surface, FacePartsOf const& of) {
   std::vector<LazyZeroArray<FacePart>> parts;
-  Point area{1, 1, 1};  // of a patch of size one in spacings, by its axis
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::size_t c = 0; c < static_cast<std::size_t>(D); ++c) area[axis] *= c == axis ? 1 : of.h[c];
-  if (from.set.axisymmetric)
-    for (double& size : area) size *= 2 * std::numbers::pi * of.h[0];
+  Point const area = unit_areas<D>(from, of.h);
   for (auto const& load : from.loads) {
     parts.emplace_back();
     if (!load.on_face()) continue;
@@ -129,6 +150,12 @@ std::vector<LazyZeroArray<FacePart>> load_integrals(SetUp const& from, LocalFits
   return parts;
 }
 
+template std::vector<LazyZeroArray<double>> face_areas<1>(SetUp const&, SurfaceIntegrals<1> const&,
+                                                          std::array<double, 3> const&);
+template std::vector<LazyZeroArray<double>> face_areas<2>(SetUp const&, SurfaceIntegrals<2> const&,
+                                                          std::array<double, 3> const&);
+template std::vector<LazyZeroArray<double>> face_areas<3>(SetUp const&, SurfaceIntegrals<3> const&,
+                                                          std::array<double, 3> const&);
 template std::vector<LazyZeroArray<FacePart>> load_integrals<1>(SetUp const&, LocalFits<1> const&,
                                                                 SurfaceIntegrals<1> const&, FacePartsOf const&);
 template std::vector<LazyZeroArray<FacePart>> load_integrals<2>(SetUp const&, LocalFits<2> const&,

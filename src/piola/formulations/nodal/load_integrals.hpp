@@ -18,6 +18,12 @@ template <int D>
 std::vector<LazyZeroArray<FacePart>> load_integrals(SetUp const& from, LocalFits<D> const& fits,
                                                     SurfaceIntegrals<D> const& surface, FacePartsOf const& of);
 
+/// Areas of the flat faces of a box as weights of particles: -x, +x, -y and so on [m^(D-1)]. A uniform pressure on a
+/// face with these areas causes uniform stress. Valid for local particles.
+template <int D>
+std::vector<LazyZeroArray<double>> face_areas(SetUp const& from, SurfaceIntegrals<D> const& surface,
+                                              std::array<double, 3> const& h);
+
 extern template std::vector<LazyZeroArray<FacePart>> load_integrals<1>(SetUp const&, LocalFits<1> const&,
                                                                        SurfaceIntegrals<1> const&, FacePartsOf const&);
 extern template std::vector<LazyZeroArray<FacePart>> load_integrals<2>(SetUp const&, LocalFits<2> const&,

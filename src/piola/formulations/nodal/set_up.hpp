@@ -37,6 +37,7 @@ struct SetUp {
   Backend const& backend;                   ///< of the loops that use the reference data
   MirrorImages const* images = nullptr;     ///< the whole body behind its mirror planes; nullptr: it has none
   std::optional<Range> own = std::nullopt;  ///< local slots if the body is distributed; empty: all
+  bool contact = false;                     ///< contact acts on the body
 
   /// Whether the set-up is distributed over ranks. With mirror planes, or surface places that supports hold, each rank
   /// sets up the whole body.
@@ -69,12 +70,13 @@ struct LatticeGradients {
 /// ghosts. Theory: docs/theory/nodal.md, section 3.
 struct Reference {
   LazyZeroArray<double> V, mass, L, k, own;
-  LazyZeroArray<double> hoop;                  ///< axisymmetric bodies, see HoopSums
-  LazyZeroArray<double> X;                     ///< in spacings, D per slot
-  LazyZeroArray<double> centroid;              ///< of the cell relative to the particle, D per slot [m]
-  std::vector<LazyZeroArray<FacePart>> parts;  ///< per load on a face, per slot; empty for other loads
-  std::vector<ConstrainedFacet> held;          ///< parts of the surface that supports hold
-  LazyZeroArray<std::int64_t> begin;           ///< lists, see GradientList; of a lattice without weights and gradients
+  LazyZeroArray<double> hoop;                     ///< axisymmetric bodies, see HoopSums
+  LazyZeroArray<double> X;                        ///< in spacings, D per slot
+  LazyZeroArray<double> centroid;                 ///< of the cell relative to the particle, D per slot [m]
+  std::vector<LazyZeroArray<FacePart>> parts;     ///< per load on a face, per slot; empty for other loads
+  std::vector<LazyZeroArray<double>> face_areas;  ///< of a box in contact, see face_areas(); empty: none
+  std::vector<ConstrainedFacet> held;             ///< parts of the surface that supports hold
+  LazyZeroArray<std::int64_t> begin;  ///< lists, see GradientList; of a lattice without weights and gradients
   std::vector<Index> neighbour;
   std::vector<double> weight, gradient, reaction;
   LatticeGradients lattice;  ///< replaces the gradients of lists if particles fill a lattice

@@ -72,6 +72,12 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
   }
   void add_velocities(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override;
 
+  void read_face_areas(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> normals,
+                       std::span<double> areas) const override {
+    slots_.visit(ids, [&](std::size_t k, std::size_t body, Index slot) {
+      areas[k] = bodies_[body]->face_area(slot, normals[k]);
+    });
+  }
   Diagnostics diagnose() const override {
     NodalDiagnosticsSum all;
     all.repeated_steps = repeated_;

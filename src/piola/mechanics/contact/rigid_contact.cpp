@@ -13,6 +13,17 @@ double layer_stiffness(ContactModel const& model, Index point, std::size_t rigid
                            surface.spacing);
 }
 
+/// Part of the area of a point that counts, by the cosine between its normal and the inward one of a shape. Points of a
+/// side face that meets a plane at a right angle do not count; beside a slope the part is near the projected area.
+struct Facing {
+  double part, slope;
+};
+
+Facing facing(double cosine) {
+  double const c = std::max(cosine, 0.0);
+  return {c * c * (2 - c), c * (4 - 3 * c)};
+}
+
 /// Records the spring between a point and a free rigid shape, of a stiffness [N/m].
 void record_spring(ContactModel const& model, std::size_t r, Index point, Vec<3> const& n, double stiffness,
                    ContactResultants& resultants) {
@@ -65,18 +76,24 @@ void RigidContact::evaluate(Index k, std::size_t r, ContactModel& model, Contact
   std::size_t const object = model.definition.object_of(r);
   state.passages.record(k, object, -d.value / spacing, d.normal);
   Layer const psi = layer(d.value, stiffness, length);
-  Vec<3> const f = (-area * psi.slope) * d.normal;
-  forces.add_contact(area * psi.energy);
-  forces.add_load(k, {f, {}, {}});
-  state.friction.slide_on_rigid(model, {k, object, -area * psi.slope, stiffness * area, area}, r, d.normal, forces);
-  forces.resultants().add_on_rigid(r, -1.0 * f, -1.0 * cross(model.points.plane(k).y - model.rigids[r].centre, f));
+  Plane const& plane = model.points.plane(k);
+  Facing const face = facing(-dot(plane.n, d.normal));
+  double const counted = area * face.part, by_cosine = area * psi.energy * face.slope;
+  Vec<3> const f = (-counted * psi.slope) * d.normal +
+                   by_cosine * normal_change(model.rigids[r], plane.y, d.normal, plane.n),
+               by_normal = -by_cosine * d.normal;
+  forces.add_contact(counted * psi.energy);
+  forces.add_load(k, {f, by_normal, {}});
+  state.friction.slide_on_rigid(model, {k, object, -counted * psi.slope, stiffness * area, counted}, r, d.normal,
+                                forces);
+  forces.resultants().add_on_rigid(r, -1.0 * f, cross(plane.n, by_normal) - cross(plane.y - model.rigids[r].centre, f));
 }
 
 double RigidContact::energy_of(ContactModel const& model, Index point, std::size_t r) const {
   if (!model.tests(point, r)) return 0;
-  return model.points[point].area * layer(faces_.distance(model, point, r).value, layer_stiffness(model, point, r),
-                                          0.5 * model.points.surface_of(point).spacing)
-                                        .energy;
+  Distance const d = faces_.distance(model, point, r);
+  return model.points[point].area * facing(-dot(model.points.plane(point).n, d.normal)).part *
+         layer(d.value, layer_stiffness(model, point, r), 0.5 * model.points.surface_of(point).spacing).energy;
 }
 
 double RigidContact::contact_time_step(ContactModel const& model, std::vector<Vec<3>> const& v) const {

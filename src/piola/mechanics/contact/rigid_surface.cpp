@@ -142,6 +142,18 @@ Distance distance_from(RigidSurface const& shape, Vec<3> const& x, Sides const& 
   return from_box(shape, r, sides);
 }
 
+Vec<3> normal_change(RigidSurface const& shape, Vec<3> const& x, Vec<3> const& normal, Vec<3> const& along) {
+  Vec<3> r = x - shape.centre, tangent = along - dot(along, normal) * normal;
+  for (int c = shape.dimension; c < 3; ++c) r[c] = tangent[c] = 0;
+  constexpr double lateral = 0.5;  // cosine between the axis of a cylinder and the normals of its ends is 1
+  if (shape.kind == RigidSurface::Kind::cylinder && std::fabs(dot(normal, shape.axis)) < lateral) {
+    tangent = tangent - dot(tangent, shape.axis) * shape.axis;
+    return (1 / dot(r, normal)) * tangent;
+  }
+  if (shape.kind == RigidSurface::Kind::sphere) return (1 / dot(r, normal)) * tangent;
+  return {};
+}
+
 std::array<bool, 3> thin_along(RigidSurface const& shape, double length) {
   PIOLA_EXPECTS(length > 0);
   std::array<bool, 3> thin{};

@@ -57,6 +57,10 @@ struct Distance {
 };
 Distance distance_from(RigidSurface const& shape, Vec<3> const& x);
 
+/// Change of the outward normal of a distance per displacement of the point inside, applied to a vector: d(normal)/dx
+/// times `along` [1/m times its unit]. Zero on flat faces.
+Vec<3> normal_change(RigidSurface const& shape, Vec<3> const& x, Vec<3> const& normal, Vec<3> const& along);
+
 /// The face by which a point entered a thin shape, as a sign along one of its axes: the edges of a box; for a cylinder
 /// first its axis. 0: the nearer face counts.
 using Sides = std::array<int, 3>;

@@ -22,8 +22,9 @@ struct SurfacePoint {
 /// The surface of one body. Without points the body has no surface contact.
 struct Surface {
   std::vector<SurfacePoint> points;
-  double spacing = 0;  ///< of its particles [m]
-  double modulus = 0;  ///< P-wave modulus kappa + 4/3 mu [Pa]
+  bool is_box = false;  ///< every point lies on a flat face across an axis
+  double spacing = 0;   ///< of its particles [m]
+  double modulus = 0;   ///< P-wave modulus kappa + 4/3 mu [Pa]
 };
 
 /// Deformation gradients of the host particles of surface points: F = sum_j (x_j - x_p) (x) g_pj over the particles of

@@ -20,6 +20,7 @@ class SurfaceContactSystem {
 
   std::vector<std::int64_t> const& ids() const { return model_.points.ids(); }
   HostParticles const& hosts() const { return model_.points.hosts(); }
+  SurfacePoints& points() { return model_.points; }
   void set_masses(std::vector<double> const& masses) { model_.points.set_masses(masses); }  ///< by index into ids()
   /// Mirror planes of a body. Their images are among its surface points.
   void set_mirrors(std::size_t body, std::vector<SurfaceMirror> mirrors) {

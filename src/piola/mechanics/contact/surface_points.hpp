@@ -20,7 +20,8 @@ class SurfacePoints {
   SurfacePoints(ParticleSet const& particles, std::vector<Surface> surfaces);
   /// Keeps the deformation gradients of the last evaluation, for friction.
   void track_motion();
-  void set_masses(std::vector<double> const& masses);  ///< by index into ids() [kg]
+  void set_area(Index point, double area) { points_[at(point)].area = area; }  ///< [m^(Dim-1)]
+  void set_masses(std::vector<double> const& masses);                          ///< by index into ids() [kg]
 
   std::vector<Surface> const& surfaces() const { return surfaces_; }
   Surface const& surface_of(Index point) const { return surfaces_[points_[at(point)].body]; }
