@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Taylor bars by finite elements, for the references in checks.toml of all cases with a Taylor bar.
 
-    python3 cases/nodal/taylor_bar/axisymmetric.py [--bar linear|ofhc] [--across 8] [x,y,z ...]
+    python3 cases/nodal/taylor_bar/axisymmetric.py [--bar linear|ofhc|armco] [--across 8] [x,y,z ...]
 
 Bars: `linear`, copper with linear hardening (227 m/s); `ofhc`, annealed copper by Johnson and Cook with the pressure of
-Mie and Grueneisen (190 m/s). Axisymmetric quadrilaterals with 2 x 2 points and one pressure each (mean dilatation),
+Mie and Grueneisen (190 m/s); `armco`, Armco iron by the same laws (221 m/s). Axisymmetric quadrilaterals with 2 x 2 points and one pressure each (mean dilatation),
 deviator by its Jaumann rate and radial return in the geometry of half time, lumped masses, central differences. The
 wall holds the lowest nodes. Prints the radius of the foot where material was that came from each radius [mm], the
 length [mm] and the largest plastic strain at the end; for each particle given by its coordinates at the start [mm],
@@ -56,6 +56,15 @@ class JohnsonCook(Linear):
         cold = np.where(m > 0, self.kappa * m * (1 + (1 - self.gamma / 2) * m - self.slope / 2 * m * m) /
                         (1 - (self.s1 - 1) * m)**2, self.kappa * m)
         return cold + (self.gamma + self.slope * m) * energy
+
+
+class ArmcoIron(JohnsonCook):
+    """Armco iron: `iron_armco` of the library."""
+    speed = 221.0
+    rho, E, nu, A, B, n, C, m = 7890.0, 207e9, 0.29, 175e6, 380e6, 0.32, 0.06, 0.55
+    heat_capacity, melting = 452.0, 1811.0
+    c0, s1, gamma, slope = 4578.0, 1.33, 1.67, 0.43
+    mu, kappa = E / (2 * (1 + nu)), rho * c0**2
 
 
 def mesh(bar, across):
@@ -154,7 +163,7 @@ def carried(bar, x, across, particle):
 
 
 def main():
-    bars = {"linear": Linear(), "ofhc": JohnsonCook()}
+    bars = {"linear": Linear(), "ofhc": JohnsonCook(), "armco": ArmcoIron()}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bar", choices=bars, default="linear")
     parser.add_argument("--across", type=int, default=8, help="elements across the radius")
