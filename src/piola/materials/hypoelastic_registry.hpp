@@ -99,6 +99,14 @@ inline bool is_explosive(MaterialParameters const& material) {
   return front > 0;
 }
 
+/// Whether heat changes the pressure of the material: its equation of state serves shocks.
+inline bool has_thermal_pressure(MaterialParameters const& material) {
+  constexpr double heat = 1e4;  // [J/kg]
+  bool thermal = false;
+  with_solid(material, [&](auto const& law) { thermal = law.pressure(law.rho0, heat) > law.pressure(law.rho0, 0); });
+  return thermal;
+}
+
 /// Calls f(law) with the law of `material`, hyperelastic or a solid in rate form: for their common members.
 template <class F>
 void with_any_law(MaterialParameters const& material, F const& f) {

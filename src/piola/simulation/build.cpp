@@ -219,16 +219,44 @@ void take_parts(CaseSpec const& spec, std::size_t body, Assembly& a) {
   for (PartSpec const& part : bodies[body].parts) a.parts.back().push_back(part.material);
 }
 
+/// Diagonal of the box around the initial velocities of particles: no two approach faster [m/s].
+double fastest_approach(Assembly const& a) {
+  double square = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    double low = 0, high = 0;
+    for (auto const& v : a.initial_velocity) {
+      low = std::min(low, v[c]);
+      high = std::max(high, v[c]);
+    }
+    square += (high - low) * (high - low);
+  }
+  return std::sqrt(square);
+}
+
+/// Modulus of pressure waves for the stiffness of contact [Pa]. Where heat changes the pressure, it is rho U^2 with the
+/// speed U = c + s V/2 of the shock that two equal bodies with the approach V cause; s = 1.5 as in most metals.
+double contact_modulus(MaterialParameters const& material, double approach) {
+  constexpr double s = 1.5;
+  double modulus = 0;
+  with_any_law(material, [&](auto const& law) {
+    modulus = law.kappa + 4.0 / 3 * law.mu;
+    double const faster = has_thermal_pressure(material) ? 1 + s * approach / (2 * std::sqrt(modulus / law.rho0)) : 1;
+    modulus *= faster * faster;
+  });
+  return modulus;
+}
+
 /// Surfaces of the bodies that accept external impulses; empty for the others.
 std::vector<contact::Surface> surfaces_of(CaseSpec const& spec, Assembly const& a) {
   std::vector<contact::Surface> surfaces(spec.bodies.size());
+  double const approach = fastest_approach(a);
   for (std::size_t b = 0; b < spec.bodies.size(); ++b) {
     bool first = false;
     for (std::size_t other = 0; other < spec.bodies.size(); ++other)
       first = first || starts_with_surface_contact(spec, other, b);
     if (!has_surface(spec, b) && !is_tied(spec, b) && !first) continue;
     surfaces[b] = contact_surface(spec.bodies[b].shape, a.particles, a.particles.bodies[b]);
-    with_any_law(a.materials[b], [&](auto const& law) { surfaces[b].modulus = law.kappa + 4.0 / 3 * law.mu; });
+    surfaces[b].modulus = contact_modulus(a.materials[b], approach);
   }
   return surfaces;
 }

@@ -124,6 +124,46 @@ TEST_P(NodalSolids, KeepTheSumOfKineticAndInternalEnergy) {
   }
 }
 
+/// Elastic copper in which heat changes the pressure.
+MaterialParameters shocked_copper() {
+  MaterialParameters m = copper("elastic");
+  m.word[SolidLayout<NoPlasticity>::eos_word] = 2;  // mie_grueneisen
+  auto const info = find_law("elastic").value();
+  for (std::size_t i = 0; i < info.parameters.size(); ++i) {
+    if (info.parameters[i].name == "bulk_sound_speed") m.value[i] = 3940;
+    if (info.parameters[i].name == "grueneisen_gamma") m.value[i] = 2;
+    if (info.parameters[i].name == "hugoniot_s1") m.value[i] = 1.489;
+  }
+  return m;
+}
+
+TEST(NodalShocks, HaveTheViscousPressureOfTheirRateAndHeatByItsWork) {
+  constexpr double rate = 2000, step = 1e-7;  // [1/s], [s]
+  auto const squeezed = [&](std::optional<double> shock, int dimension) {
+    Assembly a = nodal_body(brick(dimension, 0.1), shocked_copper());
+    if (shock) choose(a, "shock_viscosity", *shock);
+    give_velocity(a, [&](Point const& X) { return Point{-rate * X[0], 0, 0}; });
+    auto f = make_formulation(a);
+    f->step(0, step);
+    return f;
+  };
+  double const J = 1 - rate * step;
+  for (int D = 1; D <= 3; ++D) {
+    double h = 1;
+    ParticleSet const set = brick(D, 0.1);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(D); ++c) h *= std::pow(set.bodies[0].spacing[c], 1.0 / D);
+    double const Q = 2 * rho0 * h * h * rate * rate / J;
+    auto const state = saved(*squeezed({}, D)).values.at("body0_solid_history");
+    std::size_t const values = static_cast<std::size_t>(nodal::Fields::solid_values(D));
+    for (std::size_t k = 0; k < state.size(); k += values)
+      EXPECT_NEAR(state[k + nodal::HistoryLayout::shock_pressure], Q, 1e-6 * Q) << D;
+    double const with = squeezed({}, D)->diagnose().strain_energy, without = squeezed(0.0, D)->diagnose().strain_energy;
+    double volume = 0;
+    for (double const V : set.volume) volume += V;
+    EXPECT_NEAR(with - without, 0.5 * volume * Q * rate * step, 1e-3 * volume * Q * rate * step) << D;
+  }
+}
+
 TEST_P(NodalSolids, KeepMomentaWhileTheyYield) {
   Assembly const a = tumbling(GetParam());
   auto const f = make_formulation(a);

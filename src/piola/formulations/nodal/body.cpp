@@ -72,7 +72,7 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
       images_(images_of(assembly, body, body_, order_)),
       materials_(materials_of(assembly, body), set, body_, order_, options),
       state_(&fields_, set.dimension,
-             {.viscosity = options.fluctuation_viscosity > 0 || options.shock_viscosity > 0,
+             {.viscosity = options.viscous,
               .solids = options.solids,
               .offset = !assembly.initial_deformation_gradient.empty(),
               .implicit_pressure = options.implicit_pressure,
@@ -80,7 +80,7 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
   state_.slots = even_range_of_rank(order_.slots(), comm::rank(), comm::size());
   state_.all_slots = order_.slots();
   state_.particles = order_.particles;
-  materials_.attach(state_, body_, options_);
+  materials_.attach(state_, options_);
   partial_.resize(static_cast<std::size_t>(exec::block_count(state_.slots)) + 1);
   state_.partial = partial_.data();
   failure_.id = order_.id.data();

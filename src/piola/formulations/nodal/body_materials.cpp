@@ -9,10 +9,19 @@
 #include <fmt/format.h>
 
 namespace piola::nodal {
+namespace {
+
+/// Coefficient of the viscous pressure of shocks where heat changes the pressure.
+constexpr double default_shock = 2;
+
+}  // namespace
 
 BodyMaterials::BodyMaterials(std::vector<MaterialParameters> const& materials, ParticleSet const& set, Body const& body,
-                             SlotOrder const& order, Options const& options) {
+                             SlotOrder const& order, Options const& options)
+    : name_(body.name) {
   double const spacing = *std::min_element(body.spacing.begin(), body.spacing.begin() + set.dimension);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(set.dimension); ++c)
+    mean_spacing_ *= std::pow(body.spacing[c], 1.0 / set.dimension);
   auto const part = [&](Index slot) {
     return part_of(set, static_cast<std::size_t>(order.id[static_cast<std::size_t>(slot)]));
   };
@@ -21,9 +30,15 @@ BodyMaterials::BodyMaterials(std::vector<MaterialParameters> const& materials, P
     Index last = first;
     while (last < order.particles && part(last) == k) ++last;
     with_any_law(materials[k], [&](auto const& law) {
-      Constants const constants{
-          law.rho0, law.kappa, law.mu, std::min(law.kappa, law.mu), spacing / law.p_wave_speed(), options.stress_free,
-          0};
+      double const shock = options.shock_viscosity.value_or(has_thermal_pressure(materials[k]) ? default_shock : 0);
+      Constants const constants{law.rho0,
+                                law.kappa,
+                                law.mu,
+                                std::min(law.kappa, law.mu),
+                                spacing / law.p_wave_speed(),
+                                options.stress_free,
+                                shock * law.rho0 * mean_spacing_ * mean_spacing_,
+                                0};
       ranges_.push_back({materials[k], constants, first, last});
     });
     first = last;
@@ -31,7 +46,7 @@ BodyMaterials::BodyMaterials(std::vector<MaterialParameters> const& materials, P
   PIOLA_ENSURES(first == order.particles);
 }
 
-void BodyMaterials::attach(BodyState& state, Body const& body, Options const& options) const {
+void BodyMaterials::attach(BodyState& state, Options const& options) const {
   state.materials = ranges_.data();
   state.material_count = static_cast<Index>(ranges_.size());
   state.constants = ranges_.front().constants;
@@ -39,24 +54,13 @@ void BodyMaterials::attach(BodyState& state, Body const& body, Options const& op
     state.constants.unit_step = std::min(state.constants.unit_step, range.constants.unit_step);
   if (state.has.viscosity && ranges_.size() > 1)
     throw InputError(fmt::format(
-        "body '{}': fluctuation_viscosity and shock_viscosity are those of one material (allowed: 0 for a body with "
-        "parts) - leave them out, or make the parts bodies and tie them",
-        body.name));
-  state.viscosity = viscosity(state, body, options);
-}
-
-ViscousConstants BodyMaterials::viscosity(BodyState const& state, Body const& body, Options const& options) const {
-  ViscousConstants viscosity{};
-  with_any_law(ranges_.front().material, [&](auto const& law) {
-    double h = 1;
-    for (std::size_t c = 0; c < static_cast<std::size_t>(state.dimension); ++c)
-      h *= std::pow(body.spacing[c], 1.0 / state.dimension);
-    double const speed = std::sqrt((state.constants.kappa_local + 4 * law.mu / 3) / law.rho0);
-    viscosity = {options.fluctuation_viscosity * law.rho0 * h * speed,
-                 options.shock_viscosity * 0.06 * law.rho0 * h * law.p_wave_speed(),
-                 options.shock_viscosity * 1.2 * law.rho0 * h * h};
-  });
-  return viscosity;
+        "body '{}': fluctuation_viscosity, and shock_viscosity of hyperelastic laws, are those of one material "
+        "(allowed: 0 for a body with parts) - leave them out, or make the parts bodies and tie them",
+        name_));
+  Constants const& of = ranges_.front().constants;
+  bool const solid = is_hypoelastic(ranges_.front().material);
+  double const speed = std::sqrt((of.kappa_local + 4 * of.mu / 3) / of.rho0);
+  state.viscosity = {options.fluctuation_viscosity * of.rho0 * mean_spacing_ * speed, solid ? 0 : of.shock};
 }
 
 std::vector<double> BodyMaterials::densities() const {

@@ -3,6 +3,7 @@
 #include "piola/formulations/nodal/options.hpp"
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/particles/ordering.hpp"
+#include <string>
 #include <vector>
 
 namespace piola::nodal {
@@ -14,14 +15,14 @@ class BodyMaterials {
                 SlotOrder const& order, Options const& options);
 
   /// Sets materials, constants and viscosity of the state. Throws InputError (viscosity of several materials).
-  void attach(BodyState& state, Body const& body, Options const& options) const;
+  void attach(BodyState& state, Options const& options) const;
   /// Reference densities [kg/m^3].
   std::vector<double> densities() const;
   MaterialRange const& of(Index slot) const;
 
  private:
-  ViscousConstants viscosity(BodyState const& state, Body const& body, Options const& options) const;
-
+  std::string name_;         ///< of the body
+  double mean_spacing_ = 1;  ///< [m]
   std::vector<MaterialRange> ranges_;
 };
 

@@ -24,8 +24,9 @@ struct HoopSums {
 
 /// Layout of the field `history` of solids in rate form, at the end of the last step.
 struct HistoryLayout {
-  /// Values of the cell: pressure, positive in compression [Pa]; specific internal energy [J/kg].
-  enum : int { pressure, energy, of_cell };
+  /// Values of the cell: pressure, positive in compression [Pa]; specific internal energy [J/kg]; viscous pressure of
+  /// shocks [Pa].
+  enum : int { pressure, energy, shock_pressure, of_cell };
   /// Values of a point, relative to point(q, D).
   enum : int {
     S,                   ///< deviatoric Cauchy stress [Pa], 6 values

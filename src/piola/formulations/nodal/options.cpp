@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace piola::nodal {
 namespace {
@@ -26,8 +27,9 @@ constexpr std::array parameters{
               "speed; damps waves of a few spacings; try 0.05",
               Interval{0, 1}, 0},
     Parameter{"shock_viscosity", "1",
-              "viscous pressure in compression, in shares of one that smears a shock over a few spacings; try 1",
-              Interval{0, 10}, 0},
+              "viscous pressure in compression, in units of density times the square of spacing times rate of volume; "
+              "smears shocks over a few spacings, and its work is heat",
+              Interval{0, 20}, no_default, "2 with an equation of state in which heat changes the pressure, else 0"},
     Parameter{"chatter_damping", "1",
               "largest fraction of a step's friction heat that chatter damping may dissipate; 0: no damping",
               Interval{0, 1}, 0.05},
@@ -115,11 +117,10 @@ Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters
   PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
   Problems problems;
   bool const stress_free = is_stress_free(word_of(spec, choices, "assumption"), dimension, false, problems);
-  bool solids = false;
+  bool solids = false, hyperelastic = false;
   for (MaterialParameters const& material : materials) {
-    if (!is_hypoelastic(material)) continue;
-    check_solid(material, stress_free, problems);
-    solids = true;
+    (is_hypoelastic(material) ? solids : hyperelastic) = true;
+    if (is_hypoelastic(material)) check_solid(material, stress_free, problems);
   }
   bool const implicit_pressure = word_of(spec, choices, "pressure") == "implicit";
   if (implicit_pressure) check_implicit(spec, materials, dimension, stress_free, problems);
@@ -128,7 +129,10 @@ Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters
   o.implicit_pressure = implicit_pressure;
   o.least_mass = number_of(spec, "min_mass_ratio", 0.3);
   o.fluctuation_viscosity = number_of(spec, "fluctuation_viscosity", 0);
-  o.shock_viscosity = number_of(spec, "shock_viscosity", 0);
+  if (double const shock = number_of(spec, "shock_viscosity", std::numeric_limits<double>::quiet_NaN());
+      !std::isnan(shock))
+    o.shock_viscosity = shock;
+  o.viscous = o.fluctuation_viscosity > 0 || (hyperelastic && o.shock_viscosity.value_or(0) > 0);
   o.energy_tolerance = number_of(spec, "energy_tolerance", implicit_pressure ? 0 : 1e-3);
   o.stress_free = stress_free;
   o.cfl = std::isnan(cfl) ? 0 : cfl;

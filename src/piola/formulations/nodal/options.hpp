@@ -2,16 +2,19 @@
 #pragma once
 #include "piola/formulations/registry.hpp"
 #include "piola/materials/registry.hpp"
+#include <optional>
 #include <vector>
 
 namespace piola::nodal {
 
 /// User options with all defaults resolved.
 struct Options {
-  double least_mass = 0.3;                                ///< of a particle, over that of its cell
-  double fluctuation_viscosity = 0, shock_viscosity = 0;  ///< see Viscosity
-  double energy_tolerance = 1e-3;  ///< error of Verlet steps, relative to the largest energy; 0: any
-  bool solids = false;             ///< whether some material is a solid in rate form
+  double least_mass = 0.3;                ///< of a particle, over that of its cell
+  double fluctuation_viscosity = 0;       ///< see Viscosity
+  std::optional<double> shock_viscosity;  ///< coefficient of the viscous pressure of shocks; empty: that of the law
+  bool viscous = false;                   ///< whether cells store viscous stresses beside those of solids in rate form
+  double energy_tolerance = 1e-3;         ///< error of Verlet steps, relative to the largest energy; 0: any
+  bool solids = false;                    ///< whether some material is a solid in rate form
   bool implicit_pressure = false;
   bool stress_free = false;  ///< plane stress, uniaxial stress
   double cfl = 0;            ///< step in units of spacing over p-wave speed at rest; 0: from the stability limit

@@ -36,6 +36,7 @@ class SolidCells {
         rho0_(law.rho0),
         mu_(law.mu),
         kappa_local_(range.constants.kappa_local),
+        shock_(range.constants.shock),
         dt_(dt),
         wanted_(wanted),
         first_(range.first),
@@ -69,6 +70,7 @@ class SolidCells {
     SymMat<3, Lanes> S[points];
     Lanes spread[points];  ///< tension of a point over that of the cell [Pa]
     Lanes pressure;        ///< of the cell, positive in compression [Pa]
+    Lanes shock_pressure;  ///< viscous, of the cell [Pa]
     Lanes energy;          ///< specific internal energy [J/kg]
   };
 
@@ -109,7 +111,8 @@ class SolidCells {
   template <class Energy>
   PIOLA_FN void advance(Index i, Cell& cell, Energy& energy) const {
     Mat<3, Lanes> dF[points], H[points];
-    stresses(cell, cell.pressure, energy.P);
+    stresses(cell, Lanes(cell.pressure + cell.shock_pressure), energy.P);
+    cell.shock_pressure = shock_pressure(cell, energy.mean_J);
     for (int q = 0; q < points; ++q) {
       dF[q] = energy.F[q] - cell.F[q];
       H[q] = cofactor(energy.F[q]);
@@ -120,9 +123,20 @@ class SolidCells {
     stresses(cell, Lanes(0.0), energy.P);
     work = cell.energy + (0.5 / rho0_) * (work + mean_work(energy.P, dF));
     Lanes const volume = (0.5 / rho0_) * mean_work(H, dF);
+    work = work - cell.shock_pressure * volume;
     for (int k = 0; k < 3; ++k) cell.pressure = pressures(rho, work - cell.pressure * volume);
     cell.energy = work - cell.pressure * volume;
-    for (int q = 0; q < points; ++q) energy.P[q] = energy.P[q] - cell.pressure * H[q];
+    Lanes const whole = cell.pressure + cell.shock_pressure;
+    for (int q = 0; q < points; ++q) energy.P[q] = energy.P[q] - whole * H[q];
+  }
+
+  /// Viscous pressure where the mean volume ratio J falls, in proportion to (dJ/dt)^2 / J. Zero in trial steps.
+  PIOLA_FN Lanes shock_pressure(Cell const& cell, Lanes const& mean_J) const {
+    if (!(dt_ > 0) || wanted_ == Wanted::trial) return Lanes(0.0);
+    Lanes before = Lanes(0.0);
+    for (int q = 0; q < points; ++q) before = before + (1.0 / points) * determinant(cell.F[q]);
+    Lanes const closing = maximum((1 / dt_) * (before - mean_J), Lanes(0.0));
+    return shock_ * closing * closing / mean_J;
   }
 
   /// Deviators and spread of the points at the gradients F. At a yielding point, the spread is scaled by the factor of
@@ -185,6 +199,7 @@ class SolidCells {
     auto const value = [&](int c) { return history_.scalar<Lanes>(i, c); };
     Cell cell;
     cell.pressure = value(HistoryLayout::pressure);
+    cell.shock_pressure = value(HistoryLayout::shock_pressure);
     cell.energy = value(HistoryLayout::energy);
     for (int q = 0; q < points; ++q) {
       int const at = HistoryLayout::point(q, D);
@@ -207,6 +222,7 @@ class SolidCells {
     };
     put(cell.pressure, HistoryLayout::pressure);
     put(cell.energy, HistoryLayout::energy);
+    put(cell.shock_pressure, HistoryLayout::shock_pressure);
     for (int q = 0; q < points; ++q) {
       int const at = HistoryLayout::point(q, D);
       put(cell.spread[q], at + HistoryLayout::spread);
@@ -219,7 +235,7 @@ class SolidCells {
   void const* law_;
   void (*update_)(void const*, SolidHistory&, SymMat<3> const&, double, double, double);
   double (*pressure_)(void const*, double, double);
-  double rho0_, mu_, kappa_local_, dt_;
+  double rho0_, mu_, kappa_local_, shock_, dt_;
   Wanted wanted_;
   Index first_, last_;
   View history_;

@@ -22,7 +22,9 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
     for (std::size_t k = 0; k < set_.bodies.size(); ++k) {
       Options options = read_options(assembly.formulations[k], materials_of(assembly, k), set_.dimension, assembly.cfl);
       if (assembly.minimises) {
-        options.fluctuation_viscosity = options.shock_viscosity = 0;
+        options.fluctuation_viscosity = 0;
+        options.shock_viscosity = 0;
+        options.viscous = false;
         options.implicit_pressure = false;
       }
       bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, backend_));

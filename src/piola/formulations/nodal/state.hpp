@@ -21,6 +21,7 @@ struct Constants {
   double kappa_local;  ///< stiffness of the logarithmic term [Pa]
   double unit_step;    ///< smallest spacing over the p-wave speed at rest [s]
   bool stress_free;    ///< in the missing directions; else they do not stretch
+  double shock;        ///< coefficient of the viscous pressure of shocks [Pa s2]
   double least_share;  ///< fraction of its volume ratio at the step's start that a point of a cell must keep
 };
 
@@ -31,10 +32,10 @@ struct MaterialRange {
   Index first, last;
 };
 
-/// Coefficients of the rates in viscous stresses, see Viscosity.
+/// Coefficients of the rates in viscous stresses that laws do not have, see Viscosity.
 struct ViscousConstants {
-  double fluctuation;                    ///< [Pa s]
-  double shock_linear, shock_quadratic;  ///< [Pa s], [Pa s2]
+  double fluctuation;  ///< [Pa s]
+  double shock;        ///< of hyperelastic laws [Pa s2]
 };
 
 /// A particle on mirror planes; a bit for each of their axes.

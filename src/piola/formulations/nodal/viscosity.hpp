@@ -18,7 +18,7 @@ struct ViscousHistory {
 };
 
 /// Adds to the stresses of the points
-///   F_q S_q,  S_q = eta (dE_q - mean dE) / dt,   and   -Q cof F_q,  Q = -linear r + quadratic r^2 if r = dJm/dt < 0,
+///   F_q S_q,  S_q = eta (dE_q - mean dE) / dt,   and   -Q cof F_q,  Q = shock r^2 / Jm if r = dJm/dt < 0,
 /// and their dissipation: (S + S of the step before) : dE / 2 and the same of Q, as the motion loses it in a step.
 template <int D>
 struct Viscosity {
@@ -61,7 +61,7 @@ struct Viscosity {
     }
     Lanes const change = ratio - before.scalar<Lanes>(i, At::ratio),
                 closing = maximum((0.0 - rate) * change, Lanes(0.0));
-    Lanes const Q = closing * (constants.shock_linear + constants.shock_quadratic * closing);
+    Lanes const Q = constants.shock * closing * closing / ratio;
     if (rate > 0) loss = loss - 0.5 * (Q + before.scalar<Lanes>(i, At::Q)) * change;
     for (int q = 0; q < At::points; ++q) energy.P[q] = energy.P[q] + (0.0 - Q) * area_map<SmallStrain>(at.whole_at(q));
     after.scalar(i, ratio, At::ratio);
