@@ -2,6 +2,7 @@
 #include "piola/drawing/revolution.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/drawing/picture.hpp"
+#include "piola/math/circle.hpp"
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -51,7 +52,7 @@ std::vector<double> ball_radii_of_rings(std::span<double const> volume, std::spa
   PIOLA_EXPECTS(volume.size() == body.size() && X.size() == body.size());
   std::map<int, std::vector<double>> areas;
   for (std::size_t i = 0; i < volume.size(); ++i)
-    if (X[i][0] > 0) areas[body[i]].push_back(volume[i] / (2 * std::numbers::pi * X[i][0]));
+    if (X[i][0] > 0) areas[body[i]].push_back(volume[i] / circle(X[i][0]));
   std::map<int, double> typical;
   for (auto& [number, all] : areas) {
     auto const place = all.begin() + static_cast<std::ptrdiff_t>(9 * (all.size() - 1) / 10);

@@ -3,6 +3,7 @@
 #include "piola/base/contracts.hpp"
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace piola {

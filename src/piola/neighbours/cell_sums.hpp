@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/math/circle.hpp"
 #include "piola/neighbours/particle_cells.hpp"
 #include <array>
 #include <functional>
-#include <numbers>
 #include <span>
 #include <vector>
 
@@ -41,7 +41,7 @@ class CellSums {
   void add_to_section(std::size_t a, Point const& r, Point const& N, double sign);
   void finish_rings();
   /// Length of the circle through X, by which surfaces of axisymmetric bodies are weighted; else 1 [m].
-  double weight(Point const& X) const { return axisymmetric_ ? 2 * std::numbers::pi * X[0] : 1; }
+  double weight(Point const& X) const { return axisymmetric_ ? circle(X[0]) : 1; }
   bool wants_facet(std::size_t a, std::size_t b) const {
     return wants_facets_ && (wants_facets_(a) || wants_facets_(b));
   }

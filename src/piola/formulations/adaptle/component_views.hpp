@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/exec/device_loops.hpp"
 #include "piola/exec/field_view.hpp"
-#include <numbers>
+#include "piola/math/circle.hpp"
 
 /// Views of fields with one array per component, and groups of lanes that may begin at any slot, because bodies follow
 /// one another without gaps.
@@ -42,12 +42,6 @@ PIOLA_FN void record_where(FailureSlot* failure, Group g, Mask const& where, int
   Lanes const marks = select(failing, Lanes(1.0), Lanes(0.0));
   for (int l = 0; l < g.count; ++l)
     if (lane(marks, l) > 0) exec::record(failure, g.first + l, code);
-}
-
-/// Length of a circle [m].
-template <class V>
-PIOLA_FN V circle(V const& radius) {
-  return (2 * std::numbers::pi) * radius;
 }
 
 PIOLA_FN Lanes magnitude(Lanes const& a) { return select(a < 0.0, -a, a); }

@@ -7,6 +7,7 @@
 #include "piola/formulations/adaptle/records.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
+#include "piola/math/circle.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -186,7 +187,7 @@ void ParticleData::set_reference() {
     Index const image = system_.image_of(slot);
     for (int c = 0; c < 3; ++c) fields().X.at(image, c) = c == 0 ? -set_.X[i][0] : set_.X[i][at(c)];
     fields().area.at(slot) = fields().area.at(image) =
-        set_.volume[i] / (2 * std::numbers::pi * ring_radius(set_.X[i][0], body_of(slot).spacing));
+        set_.volume[i] / circle(ring_radius(set_.X[i][0], body_of(slot).spacing));
   };
   for (std::size_t b = 0; b < body_.size(); ++b)
     for (Index i = system_.part[b].first; i < system_.part[b].last; ++i) {
@@ -225,7 +226,7 @@ double ParticleData::initial_thickness(Index slot) {
   double const radius = fields().x.at(slot);
   Index const image = system_.image_of(slot);
   for (int c = 0; c < 3; ++c) position_[3 * at(image) + at(c)] = c == 0 ? -radius : fields().x.at(slot, c);
-  return 2 * std::numbers::pi * radius;
+  return circle(radius);
 }
 
 void ParticleData::update_kernel_types() {

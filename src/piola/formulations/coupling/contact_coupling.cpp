@@ -54,24 +54,24 @@ void ContactCoupling::fit_areas(Formulations const& formulations) {
   constexpr double least = 0.25;
   contact::SurfacePoints& points = system_.points();
   for (std::size_t b = 0; b < points.surfaces().size(); ++b) {
-    if (!points.surfaces()[b].is_box) continue;
-    Index const first = points.number_of(b, 0), count = static_cast<Index>(points.surfaces()[b].points.size());
+    std::vector<contact::SurfacePoint> const& of_body = points.surfaces()[b].points;
+    if (!points.surfaces()[b].is_box || of_body.empty()) continue;
+    Index const first = points.number_of(b, 0);
     std::vector<ContactParticles::FacePlace> places;
-    for (Index k = first; k < first + count; ++k)
-      places.push_back({points.particle(k), array_of(points[k].N), points[k].area});
+    for (std::size_t k = 0; k < of_body.size(); ++k)
+      places.push_back({points.particle(first + static_cast<Index>(k)), array_of(of_body[k].normal), of_body[k].area});
     particles_.read_face_areas(formulations, places);
     std::map<std::array<double, 3>, std::array<double, 2>> sums;  // before, after; by normal
     bool usable = true;
-    for (Index k = 0; k < count; ++k) {
-      auto const& [at, normal, area] = places[static_cast<std::size_t>(k)];
-      double const before = points[first + k].area;
-      usable = usable && area > least * before;
-      sums[normal][0] += before;
-      sums[normal][1] += area;
+    for (std::size_t k = 0; k < of_body.size(); ++k) {
+      usable = usable && places[k].area > least * of_body[k].area;
+      if (of_body[k].image) continue;
+      sums[places[k].normal][0] += of_body[k].area;
+      sums[places[k].normal][1] += places[k].area;
     }
-    for (Index k = 0; k < count && usable; ++k) {
-      auto const& [at, normal, area] = places[static_cast<std::size_t>(k)];
-      points.set_area(first + k, area * sums[normal][0] / sums[normal][1]);
+    for (std::size_t k = 0; k < of_body.size() && usable; ++k) {
+      auto const& [before, after] = sums[places[k].normal];
+      points.set_area(first + static_cast<Index>(k), after > 0 ? places[k].area * before / after : of_body[k].area);
     }
   }
 }

@@ -79,6 +79,12 @@ void ContactParticles::read_motion(Formulations const& formulations) {
 void ContactParticles::read_face_areas(Formulations const& formulations, std::vector<FacePlace>& places) const {
   std::map<Index, Image const*> image_of;
   for (Image const& image : images_) image_of[image.at] = &image;
+  for (FacePlace& place : places) {
+    auto const image = image_of.find(place.at);
+    if (image == image_of.end()) continue;
+    place.at = image->second->source;
+    for (std::size_t c = 0; c < 3; ++c) place.normal[c] *= image->second->sign[c];
+  }
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     std::map<Index, std::int64_t> local;
     for (std::size_t k = 0; k < groups_[g].at.size(); ++k) local[groups_[g].at[k]] = groups_[g].local[k];
@@ -87,14 +93,11 @@ void ContactParticles::read_face_areas(Formulations const& formulations, std::ve
     std::vector<std::array<double, 3>> normals;
     std::vector<double> areas;
     for (std::size_t k = 0; k < places.size(); ++k) {
-      auto const image = image_of.find(places[k].at);
-      auto const found = local.find(image == image_of.end() ? places[k].at : image->second->source);
+      auto const found = local.find(places[k].at);
       if (found == local.end()) continue;
       numbers.push_back(k);
       ids.push_back(found->second);
       normals.push_back(places[k].normal);
-      if (image != image_of.end())
-        for (std::size_t c = 0; c < 3; ++c) normals.back()[c] *= image->second->sign[c];
       areas.push_back(places[k].area);
     }
     formulations[g]->read_face_areas(ids, normals, areas);

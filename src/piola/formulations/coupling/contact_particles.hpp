@@ -43,12 +43,14 @@ class ContactParticles {
 
   void read_masses(Formulations const& formulations);
   void read_motion(Formulations const& formulations);
-  /// Places of a body's flat faces and their areas, see CoupledParticles::read_face_areas().
+  /// Place on a flat face of a body.
   struct FacePlace {
     Index at;                      ///< index of the particle
     std::array<double, 3> normal;  ///< outward unit vector
     double area;                   ///< [m^(D-1)]
   };
+  /// Changes the areas, see CoupledParticles::read_face_areas(). Places on images get areas and normals of their
+  /// sources.
   void read_face_areas(Formulations const& formulations, std::vector<FacePlace>& places) const;
   /// Particles whose formulation now keeps them apart from other bodies itself, as marks by index into
   /// SurfaceContactSystem::ids(); empty if there are no new ones.

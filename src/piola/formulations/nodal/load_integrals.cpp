@@ -2,10 +2,10 @@
 #include "piola/formulations/nodal/load_integrals.hpp"
 #include "piola/domain/sum_over_slots.hpp"
 #include "piola/formulations/nodal/loaded_face.hpp"
+#include "piola/math/circle.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <numbers>
 
 namespace piola::nodal {
 namespace {
@@ -114,7 +114,7 @@ Point unit_areas(SetUp const& from, std::array<double, 3> const& h) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (std::size_t c = 0; c < static_cast<std::size_t>(D); ++c) area[axis] *= c == axis ? 1 : h[c];
   if (from.set.axisymmetric)
-    for (double& size : area) size *= 2 * std::numbers::pi * h[0];
+    for (double& size : area) size *= circle(h[0]);
   return area;
 }
 

@@ -45,6 +45,25 @@ void add_up(std::vector<std::int64_t>& begin) {
   for (std::size_t a = 0; a + 1 < begin.size(); ++a) begin[a + 1] += begin[a];
 }
 
+/// Removes pairs of these rows for which `drop` is true. Returns whether there was one.
+bool drop_pairs(Pairs& pairs, IndexSet const& rows, std::function<bool(std::size_t, std::size_t)> const& drop) {
+  std::vector<char> keeps(pairs.neighbour.size(), 1);
+  exec_host::parallel_for(rows.size(), [&](Index row) {
+    for (std::size_t a = rows[row], k = pairs.first(a); k < pairs.end(a); ++k) keeps[k] = drop(a, pairs.at(k)) ? 0 : 1;
+  });
+  std::vector<std::int64_t> begin(pairs.begin.size(), 0);
+  std::size_t kept = 0;
+  for (std::size_t a = 0; a + 1 < pairs.begin.size(); ++a) {
+    for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k)
+      if (keeps[k] != 0) pairs.neighbour[kept++] = pairs.neighbour[k];
+    begin[a + 1] = static_cast<std::int64_t>(kept);
+  }
+  bool const any = kept < pairs.neighbour.size();
+  pairs.neighbour.resize(kept);
+  pairs.begin = std::move(begin);
+  return any;
+}
+
 }  // namespace
 
 Index Pairs::farthest() const {
@@ -174,8 +193,12 @@ std::vector<Index> representatives_in_lattice(LatticeShape const& shape, int bey
 
 template <int D>
 LocalFits<D>::LocalFits(Points const& X, std::optional<LatticeShape> const& lattice,
-                        std::optional<DistributedSlots> const& shared)
-    : X_(X), shared_(shared), rows_(static_cast<Index>(X.size())), reach_(X.size(), usual_reach) {
+                        std::optional<DistributedSlots> const& shared, Blocked blocked)
+    : X_(X),
+      shared_(shared),
+      blocked_(std::move(blocked)),
+      rows_(static_cast<Index>(X.size())),
+      reach_(X.size(), usual_reach) {
   if (lattice) fit_lattice(*lattice);
   if (!lattice || !usual_) fit_cloud();
 }
@@ -207,6 +230,12 @@ void LocalFits<D>::fit_lattice(LatticeShape const& shape) {
       pairs_.weight[k] = weight_of(i * i + j * j + l * l, usual_reach);
     }
   });
+  if (blocked_) {
+    double dropped = drop_pairs(pairs_, rows_, blocked_) ? 1 : 0;
+    if (shared_) comm::allreduce_max(dropped);
+    dropped_ = dropped > 0;
+    usual_ = !dropped_;
+  }
   inverse_ = LazyZeroArray<double>(first.size() * static_cast<std::size_t>(terms * terms));
   for (std::size_t kind = 0; kind < first.size() && usual_; ++kind) usual_ = fit(first[kind], kind);
 }
@@ -220,6 +249,7 @@ void LocalFits<D>::find_cloud() {
     rows_ = with_neighbours(find_pairs(X_, reach_, IndexSet(mine)), own(), std::vector<bool>(X_.size()));
   }
   pairs_ = find_pairs(X_, reach_, rows_);
+  if (blocked_) dropped_ = drop_pairs(pairs_, rows_, blocked_) || dropped_;
   pairs_.weight.resize(pairs_.neighbour.size());
 }
 
@@ -273,7 +303,7 @@ void LocalFits<D>::fit_cloud() {
     });
     complete = lengthen(fits);
   }
-  usual_ = std::all_of(reach_.begin(), reach_.end(), [](double reach) { return reach == usual_reach; });
+  usual_ = !dropped_ && std::all_of(reach_.begin(), reach_.end(), [](double reach) { return reach == usual_reach; });
 }
 
 template <int D>
@@ -297,7 +327,7 @@ double LocalFits<D>::nearness(std::size_t a, std::size_t b) const {
 
 template <int D>
 bool LocalFits<D>::sees(std::size_t a, std::size_t b) const {
-  return nearness(a, b) > 1 - edge * edge;
+  return nearness(a, b) > 1 - edge * edge && (a == b || !blocked_ || !blocked_(a, b));
 }
 
 template <int D>

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -88,8 +89,10 @@ class LocalFits {
 
   /// lattice: the lattice that the points fill, if any; each distinct neighbourhood is then fitted once. shared: the
   /// points are distributed, and each rank fits its local points and their neighbours; then collective.
+  /// blocked: whether two points do not see each other, see LineOfSight; then they are no neighbours in a cloud.
+  using Blocked = std::function<bool(std::size_t, std::size_t)>;
   explicit LocalFits(Points const& X, std::optional<LatticeShape> const& lattice = std::nullopt,
-                     std::optional<DistributedSlots> const& shared = std::nullopt);
+                     std::optional<DistributedSlots> const& shared = std::nullopt, Blocked blocked = {});
 
   /// Local points of this rank, or all.
   Range own() const { return shared_ ? shared_->own() : Range{0, static_cast<Index>(X_.size())}; }
@@ -108,7 +111,7 @@ class LocalFits {
   Points const& X() const { return X_; }
   /// X_b - X_a; on a lattice whole numbers.
   std::array<double, 3> difference(std::size_t a, std::size_t b) const;
-  /// Whether b is within the larger of the support radii of two particles, or is a itself.
+  /// Whether b is within the larger of the support radii of two particles and not blocked, or is a itself.
   bool sees(std::size_t a, std::size_t b) const;
   /// 1 - (r/R)^2 of two particles.
   double nearness(std::size_t a, std::size_t b) const;
@@ -142,6 +145,7 @@ class LocalFits {
 
   Points const& X_;
   std::optional<DistributedSlots> shared_;
+  Blocked blocked_;
   IndexSet rows_;
   std::vector<double> reach_;
   Pairs pairs_;
@@ -151,6 +155,7 @@ class LocalFits {
   std::vector<std::int32_t> kind_;  ///< of a lattice: index of the inverse of a particle
   Index hopeless_ = -1;
   bool usual_ = true;
+  bool dropped_ = false;  ///< some pair was blocked
 };
 
 extern template class LocalFits<1>;

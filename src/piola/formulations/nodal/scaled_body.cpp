@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/scaled_body.hpp"
 #include "piola/formulations/nodal/hoop_stretch.hpp"
+#include "piola/math/circle.hpp"
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -212,10 +213,10 @@ ScaledCell scaled(CellMoments const& cell, ScaledBody const& body) {
 }
 
 SectionMoments scaled(SectionMoments section, ScaledBody const& body) {
-  double const circle = body.h_volume / (body.h[0] * body.h[1] * body.h[0]);  // 2 pi
+  double const full = circle(1.0);
   for (std::size_t m = 0; m < SectionMoments::powers.size(); ++m) {
     auto const [i, j] = SectionMoments::powers[m];
-    section.of[m] /= circle * std::pow(body.h[0], i + 1) * std::pow(body.h[1], j + 1);
+    section.of[m] /= full * std::pow(body.h[0], i + 1) * std::pow(body.h[1], j + 1);
   }
   return section;
 }
@@ -266,7 +267,7 @@ ScaledBody scaled_body(SetUp const& from, std::optional<LatticeShape> const& lat
     r.h[c] = body.spacing[c];
     r.h_volume *= body.spacing[c];
   }
-  if (set.axisymmetric) r.h_volume *= 2 * std::numbers::pi * r.h[0];
+  if (set.axisymmetric) r.h_volume *= circle(r.h[0]);
   BodyCells measured = measure_cells(set, body, wanted_facets(from, lattice));
   std::vector<Index> slot_of(measured.cell.size());
   r.X.reserve(measured.cell.size());

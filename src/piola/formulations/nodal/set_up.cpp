@@ -6,6 +6,7 @@
 #include "piola/formulations/nodal/gradient_check.hpp"
 #include "piola/formulations/nodal/gradient_tables.hpp"
 #include "piola/formulations/nodal/lattice_masses.hpp"
+#include "piola/formulations/nodal/line_of_sight.hpp"
 #include "piola/formulations/nodal/load_integrals.hpp"
 #include "piola/formulations/nodal/masses.hpp"
 #include "piola/formulations/nodal/scaled_body.hpp"
@@ -125,7 +126,8 @@ Reference make(SetUp const& from) {
   // First, because its pairs reach farther than those that are kept.
   auto const mass = masses<D>(from, scaled, shape, {shared, endless});
   r.costs.masses = since(clock);
-  LocalFits<D> fits(scaled.X, shape, shared);
+  LineOfSight const line(from, scaled.X, scaled.h);
+  LocalFits<D> fits(scaled.X, shape, shared, [&](std::size_t a, std::size_t b) { return line.is_blocked(a, b); });
   refuse_unsolvable(from, fits);
   if (shape && !fits.usual()) scaled.facets = scaled_body(from, std::nullopt).facets;
   r.costs.fits = since(clock);

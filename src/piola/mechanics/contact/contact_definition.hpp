@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/math/circle.hpp"
 #include "piola/mechanics/contact/friction.hpp"
 #include "piola/mechanics/contact/self_contact_exclusions.hpp"
 #include "piola/mechanics/contact/shape_points.hpp"
 #include "piola/mechanics/contact/surface_points.hpp"
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <vector>
 
 namespace piola::contact {
@@ -33,7 +33,7 @@ struct ShapePass {
   bool axisymmetric = false;  ///< points stand for rings
 
   /// Factor on the area of a point at the radius x [m].
-  double around(double x) const { return axisymmetric ? 2 * std::numbers::pi * std::max(x, 0.0) : 1; }
+  double around(double x) const { return axisymmetric ? circle(std::max(x, 0.0)) : 1; }
 };
 
 /// Which surface points can be in contact with which objects, and by which law. Objects are the bodies, then the rigid
