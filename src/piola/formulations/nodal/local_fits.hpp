@@ -89,7 +89,7 @@ class LocalFits {
 
   /// lattice: the lattice that the points fill, if any; each distinct neighbourhood is then fitted once. shared: the
   /// points are distributed, and each rank fits its local points and their neighbours; then collective.
-  /// blocked: whether two points do not see each other, see LineOfSight; then they are no neighbours in a cloud.
+  /// blocked: whether two points do not see each other, see LineOfSight: then they are no neighbours in a cloud.
   using Blocked = std::function<bool(std::size_t, std::size_t)>;
   explicit LocalFits(Points const& X, std::optional<LatticeShape> const& lattice = std::nullopt,
                      std::optional<DistributedSlots> const& shared = std::nullopt, Blocked blocked = {});

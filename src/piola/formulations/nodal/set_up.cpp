@@ -6,10 +6,10 @@
 #include "piola/formulations/nodal/gradient_check.hpp"
 #include "piola/formulations/nodal/gradient_tables.hpp"
 #include "piola/formulations/nodal/lattice_masses.hpp"
-#include "piola/formulations/nodal/line_of_sight.hpp"
 #include "piola/formulations/nodal/load_integrals.hpp"
 #include "piola/formulations/nodal/masses.hpp"
 #include "piola/formulations/nodal/scaled_body.hpp"
+#include "piola/neighbours/line_of_sight.hpp"
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
@@ -112,6 +112,32 @@ bool is_endless(MirrorImages const& images) {
   return any;
 }
 
+/// Signed distance of a place from the surface of the whole body, continued behind mirror planes [m].
+double distance_from_whole(SetUp const& from, std::array<double, 3> X) {
+  for (std::size_t c = 0; c < 3 && from.images != nullptr; ++c)
+    for (bool const upper : {false, true}) {
+      if (!from.images->has_plane(c, upper)) continue;
+      double const plane = from.images->plane(c, upper);
+      if (upper ? X[c] > plane : X[c] < plane) X[c] = 2 * plane - X[c];
+    }
+  return from.body.outline.distance(X);
+}
+
+/// Which particles do not see each other; empty: all do, as far as is known.
+std::function<bool(std::size_t, std::size_t)> blocked_lines(SetUp const& from, ScaledBody const& scaled) {
+  if (!from.body.outline.distance) return {};
+  double const spacing = *std::min_element(scaled.h.begin(), scaled.h.begin() + from.set.dimension);
+  LineOfSight const line([&](auto const& X) { return distance_from_whole(from, X); }, spacing);
+  return [&scaled, line](std::size_t a, std::size_t b) {
+    std::array<double, 3> from_a = scaled.X[a], to_b = scaled.X[b];
+    for (std::size_t c = 0; c < 3; ++c) {
+      from_a[c] *= scaled.h[c];
+      to_b[c] *= scaled.h[c];
+    }
+    return line.is_blocked(from_a, to_b);
+  };
+}
+
 template <int D>
 Reference make(SetUp const& from) {
   Reference r;
@@ -126,8 +152,7 @@ Reference make(SetUp const& from) {
   // First, because its pairs reach farther than those that are kept.
   auto const mass = masses<D>(from, scaled, shape, {shared, endless});
   r.costs.masses = since(clock);
-  LineOfSight const line(from, scaled.X, scaled.h);
-  LocalFits<D> fits(scaled.X, shape, shared, [&](std::size_t a, std::size_t b) { return line.is_blocked(a, b); });
+  LocalFits<D> fits(scaled.X, shape, shared, blocked_lines(from, scaled));
   refuse_unsolvable(from, fits);
   if (shape && !fits.usual()) scaled.facets = scaled_body(from, std::nullopt).facets;
   r.costs.fits = since(clock);

@@ -3,6 +3,7 @@
 #include "piola/base/contracts.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/neighbours/cell_grid.hpp"
+#include "piola/neighbours/line_of_sight.hpp"
 #include "piola/particles/body_range.hpp"
 #include <algorithm>
 #include <cmath>
@@ -24,12 +25,14 @@ class Bonds {
     std::vector<std::array<double, 3>> const X(particles.X.begin() + body.first, particles.X.begin() + body.last);
     double const longest = longest_bond * spacing;
     CellGrid const grid(X, longest);
+    LineOfSight const line(body.outline.distance, spacing);
     exec_host::parallel_for(static_cast<Index>(X.size()), [&](Index k) {
       auto const& here = X[static_cast<std::size_t>(k)];
       grid.visit(here, [&](Index j) {
         auto const& there = X[static_cast<std::size_t>(j)];
         double const length = std::hypot(here[0] - there[0], here[1] - there[1], here[2] - there[2]);
-        if (j != k && length < longest) bonds_[static_cast<std::size_t>(k)].push_back({length, j});
+        if (j != k && length < longest && !line.is_blocked(here, there))
+          bonds_[static_cast<std::size_t>(k)].push_back({length, j});
       });
     });
   }

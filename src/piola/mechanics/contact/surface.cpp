@@ -4,6 +4,7 @@
 #include "piola/base/errors.hpp"
 #include "piola/math/solve.hpp"
 #include "piola/neighbours/cell_grid.hpp"
+#include "piola/neighbours/line_of_sight.hpp"
 #include <algorithm>
 #include <array>
 #include <map>
@@ -62,29 +63,33 @@ bool fit(ParticleSet const& set, std::int64_t p, std::vector<std::int64_t> const
 /// Particles of one body by place.
 class Around {
  public:
-  Around(ParticleSet const& set, Body const& body, double reach)
-      : set_(set), body_(body), reach_(reach), grid_(places(set, body), reach) {}
+  Around(ParticleSet const& set, Body const& body, double spacing)
+      : set_(set),
+        body_(body),
+        grid_(places(set, body), reaches.back() * spacing),
+        line_(body.outline.distance, spacing) {}
 
   std::vector<std::int64_t> operator()(std::int64_t p, double reach) const {
     std::vector<std::int64_t> found;
     grid_.visit(set_.X[static_cast<std::size_t>(p)], [&](Index k) {
       std::int64_t const id = body_.first + k;
       Vec<3> const r = place(set_, id) - place(set_, p);
-      if (id != p && dot(r, r) < reach * reach) found.push_back(id);
+      if (id != p && dot(r, r) < reach * reach && !line_.is_blocked(place_of(p), place_of(id))) found.push_back(id);
     });
     std::sort(found.begin(), found.end());
     return found;
   }
-  double reach() const { return reach_; }
 
  private:
   static std::vector<std::array<double, 3>> places(ParticleSet const& set, Body const& body) {
     return {set.X.begin() + body.first, set.X.begin() + body.last};
   }
+  std::array<double, 3> const& place_of(std::int64_t id) const { return set_.X[static_cast<std::size_t>(id)]; }
+
   ParticleSet const& set_;
   Body const& body_;
-  double reach_;
   CellGrid grid_;
+  LineOfSight line_;
 };
 
 Stencil stencil_of(ParticleSet const& set, Body const& body, Around const& around, std::int64_t p, double spacing) {
@@ -108,7 +113,7 @@ HostParticles::HostParticles(ParticleSet const& particles, std::vector<Surface> 
     if (surfaces[b].points.empty()) continue;
     PIOLA_EXPECTS(surfaces[b].spacing > 0);
     Body const& body = particles.bodies[b];
-    Around const around(particles, body, reaches.back() * surfaces[b].spacing);
+    Around const around(particles, body, surfaces[b].spacing);
     std::map<std::int64_t, Index> known;
     for (SurfacePoint const& point : surfaces[b].points) {
       auto const [entry, fresh] = known.try_emplace(point.particle, static_cast<Index>(particle.size()));

@@ -1,25 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/formulations/nodal/line_of_sight.hpp"
-#include "formulations/nodal/nodal_bodies.hpp"
+#include "piola/neighbours/line_of_sight.hpp"
+#include <cmath>
+#include <gtest/gtest.h>
 
 namespace piola::testing {
 namespace {
 
+using Point = std::array<double, 3>;
 using Distance = std::function<double(Point const&)>;
 
-/// Whether two places of a plane body with this distance from its surface see each other [m].
+/// Whether two places see each other, with a spacing of 1 m and of 1 mm.
 bool see(Distance const& distance, Point const& a, Point const& b) {
-  ParticleSet set = brick(2);
-  set.bodies[0].outline.distance = distance;
-  SlotOrder const order = nodal::slot_order(set, set.bodies[0]);
-  std::vector<double> const densities{1000};
-  Assembly const none;
-  nodal::SetUp const from{set,           set.bodies[0], order, none.loads,
-                          none.supports, densities,     0.3,   *nodal::find_backend("auto")};
-  std::vector<Point> const X{a, b};
-  nodal::LineOfSight const line(from, X, {1, 1, 1});
-  EXPECT_EQ(line.is_blocked(0, 1), line.is_blocked(1, 0));
-  return !line.is_blocked(0, 1);
+  LineOfSight const line(distance, 1);
+  bool const blocked = line.is_blocked(a, b);
+  EXPECT_EQ(line.is_blocked(b, a), blocked);
+  if (!distance) return !blocked;
+  constexpr double mm = 1e-3;
+  auto const scaled = [](Point X, double by) {
+    for (double& c : X) c *= by;
+    return X;
+  };
+  LineOfSight const small([&](Point const& X) { return mm * distance(scaled(X, 1 / mm)); }, mm);
+  EXPECT_EQ(small.is_blocked(scaled(a, mm), scaled(b, mm)), blocked);
+  return !blocked;
 }
 
 TEST(LineOfSight, DoesNotCrossASlitHoweverNarrow) {
