@@ -22,7 +22,7 @@ struct RateSums {
 /// (Lee et al. eqs. 47-49). Measured from the centroid, resultant and moment decouple:
 ///   push = -sum V f / sum V,   spin = -I^-1 sum V r cross f,   I = sum V (r.r 1 - r (x) r).
 /// Directions in which the body has no inertia (1D, or 2D out of its plane) get no spin.
-PIOLA_FN RigidRate balancing_rate(RateSums const& s, int dimension) {
+PIOLA_INLINE_FN RigidRate balancing_rate(RateSums const& s, int dimension) {
   RigidRate g;
   for (int c = 0; c < 3; ++c) {
     g.push[c] = -s.f[c] / s.volume;

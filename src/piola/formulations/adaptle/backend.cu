@@ -9,10 +9,10 @@ namespace {
 
 template <int D, class Law>
 void launch_law(Range r, void const* pass) {
-  exec::for_each_block(r, exec::as<Predict<D, Law>>(pass));
-  exec::for_each_block(r, exec::as<HalfState<D, false, Law>>(pass));
-  exec::for_each_block(r, exec::as<HalfState<D, true, Law>>(pass));
-  exec::for_each_block(r, exec::as<Finish<D, Law>>(pass));
+  exec::for_each_block(r, exec::as<Predict<D, PredictStress<Law>>>(pass));
+  exec::for_each_block(r, exec::as<HalfState<D, false, HalfStress<Law>>>(pass));
+  exec::for_each_block(r, exec::as<HalfState<D, true, HalfStress<Law>>>(pass));
+  exec::for_each_block(r, exec::as<Finish<D, FinishStress<Law>>>(pass));
 }
 
 template <int D, MaterialForm Form>

@@ -45,7 +45,8 @@ struct StepEnd {
   std::int8_t* conversion_request;
   FailureSlot* failure;
 
-  StepEnd(System const& s, BodyConstants const& of, MaterialTable const& table, bool law_damages, double step)
+  PIOLA_SHARED_FN StepEnd(System const& s, BodyConstants const& of, MaterialTable const& table, bool law_damages,
+                          double step)
       : body(of),
         settings(s.settings),
         damages(law_damages),
@@ -76,7 +77,7 @@ struct StepEnd {
         conversion_request(s.description.request),
         failure(s.failure) {}
 
-  PIOLA_FN void operator()(Range block, BlockScratch const& scratch, double* m) const {
+  PIOLA_SHARED_FN void operator()(Range block, BlockScratch const& scratch, double* m) const {
     Lanes least(1e300), overlap(0.0), sums[BlockMeasures::sums];
     for (Lanes& sum : sums) sum = Lanes(0.0);
     each_group(block, [&](Group g) {
@@ -212,23 +213,20 @@ struct StepEnd {
   }
 };
 
-/// Kick, second drift, and update of density, stress, energy and history; stable step and conversion requests.
-template <int D, class Law>
-struct Finish {
+/// Update of density, stress, energy and history to the end of the step.
+template <class Law>
+struct FinishStress {
   Law law;
-  Kick<D> kick;
+  double dt;
   Balance balance;
-  StepEnd<D> end;
   PointFields point;
   double release_rate;  ///< see release [1/s]; 0: failed particles keep their stress
   OwnComponents S, S_rate, plastic_strain, temperature, damage, plastic_work, bulking, released, flow;
-  double* partial;
 
-  Finish(Law const& of_body, System const& s, BodyConstants const& body, MaterialTable const& table, double dt)
+  PIOLA_SHARED_FN FinishStress(Law const& of_body, System const& s, BodyConstants const& body, double step)
       : law(of_body),
-        kick(s, table, dt),
-        balance(s, body, dt),
-        end(s, body, table, of_body.damages, dt),
+        dt(step),
+        balance(s, body, step),
         point(s.field, s.own),
         release_rate(body.releases ? of_body.s_wave_speed() / (2 * body.h) : 0),
         S(write(s.field.S)),
@@ -239,27 +237,20 @@ struct Finish {
         plastic_work(write(s.field.plastic_work)),
         bulking(write(s.field.bulking)),
         released(write(s.field.released)),
-        flow(write(s.field.flow)),
-        partial(s.partial) {}
+        flow(write(s.field.flow)) {}
 
-  PIOLA_FN void operator()(Range block, Index number) const {
-    double* m = partial + static_cast<std::ptrdiff_t>(number) * BlockMeasures::size;
-    for (int c = 0; c < BlockMeasures::size; ++c) m[c] = 0;
-    BlockScratch scratch(block.first);
-    kick(block, scratch, m);
-    if (end.settings.plane_stress)
+  PIOLA_FN void operator()(Range block, BlockScratch& scratch) const {
+    if (balance.settings.plane_stress)
       for (Index i = block.first; i < block.last; ++i)
-        scratch.L[8][i - block.first] = RateAcross<Law>{law, point, balance, kick.dt}(i, scratch);
+        scratch.L[8][i - block.first] = RateAcross<Law>{law, point, balance, dt}(i, scratch);
     balance(block, scratch);
     each_group(block, [&](Group g) { strain(g, scratch.gradient(g)); });
-    end(block, scratch, m);
   }
 
  private:
   /// Updates the deviator and its history to the end of the step.
   PIOLA_FN void strain(Group g, Mat<3, Lanes> const& L) const {
     Index const i = g.first;
-    double const dt = kick.dt;
     Lanes const none(0.0);
     SymMat<3, Lanes> const before = point.S.symmetric<Lanes>(i);
     SymMat<3, Lanes> rate = law.deviator_rate(balance.S_half.symmetric<Lanes>(i), L), trial;
@@ -291,7 +282,7 @@ struct Finish {
   PIOLA_FN void release(Group g, Mask const& failed, SolidHistoryOf<Lanes>& h, Lanes const& rho) const {
     if (!any(failed)) return;
     Lanes const one(1.0), before = released.seen().scalar<Lanes>(g.first);
-    Lanes const after = minimum(before + kick.dt * release_rate, one);
+    Lanes const after = minimum(before + dt * release_rate, one);
     Lanes const factor = select(failed, (1.0 - after) / (1.0 - before), one);
     Lanes square(0.0);
     for (int c = 0; c < 6; ++c) square += (c < 3 ? 1.0 : 2.0) * h.S.c[c] * h.S.c[c];
@@ -299,6 +290,25 @@ struct Finish {
     h.plastic_work = select(failed, h.plastic_work + heat, h.plastic_work);
     for (Lanes& component : h.S.c) component = component * factor;
     released.put(g, select(failed, after, before));
+  }
+};
+
+/// Kick, second drift, and update of density, stress, energy and history; stable step and conversion requests.
+/// Stress: FinishStress, or a LawPart of it.
+template <int D, class Stress>
+struct Finish {
+  Kick<D> kick;
+  Stress stress;
+  StepEnd<D> end;
+  double* partial;
+
+  PIOLA_FN void operator()(Range block, Index number) const {
+    double* m = partial + static_cast<std::ptrdiff_t>(number) * BlockMeasures::size;
+    for (int c = 0; c < BlockMeasures::size; ++c) m[c] = 0;
+    BlockScratch scratch(block.first);
+    kick(block, scratch, m);
+    stress(block, scratch);
+    end(block, scratch, m);
   }
 };
 

@@ -19,7 +19,7 @@ struct WriteRecords {
   SpatialTable spatial;    ///< records null: not needed
   MaterialTable material;  ///< records null: not needed
 
-  WriteRecords(System const& s, BodyConstants const& of, MaterialTable const& table, double dt)
+  PIOLA_SHARED_FN WriteRecords(System const& s, BodyConstants const& of, MaterialTable const& table, double dt)
       : body(of),
         settings(s.settings),
         half(s, of, table, dt),
@@ -43,7 +43,7 @@ struct WriteRecords {
         spatial(s.spatial),
         material(table) {}
 
-  PIOLA_FN void operator()(Range block) const {
+  PIOLA_SHARED_FN void operator()(Range block) const {
     each_group(block, [&](Group g) {
       Index const i = g.first;
       Lanes const p = pressure.scalar<Lanes>(i);
@@ -201,42 +201,53 @@ struct WriteRecords {
   }
 };
 
-/// Density, pressure and volume at half time, and neighbour data.
-template <int D, bool Corrected, class Law>
-struct HalfState {
+/// Pressure, speed of sound and, for laws whose strength depends on pressure, stress at half time.
+template <class Law>
+struct HalfStress {
   Law law;
-  HalfVolume volume;
-  WriteRecords<D, Corrected> records;
+  double step;  ///< half of a time step [s]
   PointFields point;
-  Components energy, energy_rate;
+  Components mass, rho_half, energy, energy_rate;
   OwnComponents pressure, c, S_half;
 
-  HalfState(Law const& of_body, System const& s, BodyConstants const& body, MaterialTable const& table, double dt)
+  PIOLA_SHARED_FN HalfStress(Law const& of_body, System const& s, double dt)
       : law(of_body),
-        volume(s, body, table, dt),
-        records(s, body, table, dt),
+        step(0.5 * dt),
         point(s.field, s.own),
+        mass(read(s.field.mass)),
+        rho_half(read(s.field.rho_half)),
         energy(read(s.field.energy)),
         energy_rate(read(s.field.energy_rate)),
         pressure(write(s.field.pressure)),
         c(write(s.field.c)),
         S_half(write(s.field.S_half)) {}
 
-  PIOLA_FN void operator()(Range block, Index) const {
-    volume(block);
+  PIOLA_FN void operator()(Range block) const {
     each_group(block, [&](Group g) {
       Index const i = g.first;
-      Lanes const rho = records.rho_half.template scalar<Lanes>(i);
-      Lanes const e =
-          (energy.scalar<Lanes>(i) + volume.step * energy_rate.scalar<Lanes>(i)) / volume.mass.scalar<Lanes>(i);
+      Lanes const rho = rho_half.scalar<Lanes>(i);
+      Lanes const e = (energy.scalar<Lanes>(i) + step * energy_rate.scalar<Lanes>(i)) / mass.scalar<Lanes>(i);
       Lanes const p = point.pressure<Lanes>(law, i, rho, e);
       pressure.put(g, p);
       c.put(g, law.template sound_speed<Lanes>(rho, e));
       if constexpr (Law::pressed) {
         SymMat<3, Lanes> const trial = S_half.seen().symmetric<Lanes>(i);
-        S_half.put_all(g, law.returned(point.history<Lanes>(i, trial), trial, volume.step, p, rho / law.rho0).c);
+        S_half.put_all(g, law.returned(point.history<Lanes>(i, trial), trial, step, p, rho / law.rho0).c);
       }
     });
+  }
+};
+
+/// Density, pressure and volume at half time, and neighbour data. Stress: HalfStress, or a LawPart of it.
+template <int D, bool Corrected, class Stress>
+struct HalfState {
+  HalfVolume volume;
+  Stress stress;
+  WriteRecords<D, Corrected> records;
+
+  PIOLA_FN void operator()(Range block, Index) const {
+    volume(block);
+    stress(block);
     records(block);
   }
 };

@@ -24,7 +24,7 @@ struct Drift {
   EquationSet equations;
   FailureSlot* failure;
 
-  Drift(System const& s, MaterialTable const& table, double step)
+  PIOLA_SHARED_FN Drift(System const& s, MaterialTable const& table, double step)
       : dt(step),
         axisymmetric(s.settings.axisymmetric),
         smallest_radius(s.smallest_radius),
@@ -50,7 +50,7 @@ struct Drift {
         equations(s.settings.equations),
         failure(s.failure) {}
 
-  PIOLA_FN void operator()(Range block) const {
+  PIOLA_SHARED_FN void operator()(Range block) const {
     each_group(block, [&](Group g) { move(g); });
   }
 
@@ -132,29 +132,46 @@ struct Drift {
   }
 };
 
-/// Drifts to half time and predicts with the rates of the last step. S is returned to the yield surface without a
-/// change of history.
-template <int D, class Law>
-struct Predict {
+/// The part of a pass that depends on the law, called once per block. It has no type of the law, so that passes are
+/// compiled once for all laws and the part once for all dimensions. The part must outlive this.
+template <class... Data>
+struct LawPart {
+  void const* part;
+  void (*run)(void const* part, Range block, Data&... data);
+
+  template <class Part>
+  explicit LawPart(Part const& of_law) : part(&of_law), run(&call<Part>) {}
+  PIOLA_FN void operator()(Range block, Data&... data) const { run(part, block, data...); }
+
+ private:
+  template <class Part>
+  static PIOLA_FN void call(void const* part, Range block, Data&... data) {
+    (*static_cast<Part const*>(part))(block, data...);
+  }
+};
+
+/// Predicts the stress at half time with the rate of the last step. S is returned to the yield surface without a change
+/// of history.
+template <class Law>
+struct PredictStress {
   Law law;
-  Drift<D> drift;
+  double dt;
   PointFields point;
   Components S_rate, flow;
   OwnComponents S_half;
 
-  Predict(Law const& of_body, System const& s, MaterialTable const& table, double dt)
+  PIOLA_SHARED_FN PredictStress(Law const& of_body, System const& s, double step)
       : law(of_body),
-        drift(s, table, dt),
+        dt(step),
         point(s.field, s.own),
         S_rate(read(s.field.S_rate)),
         flow(read(s.field.flow)),
         S_half(write(s.field.S_half)) {}
 
-  PIOLA_FN void operator()(Range block, Index) const {
-    drift(block);
+  PIOLA_FN void operator()(Range block) const {
     each_group(block, [&](Group g) {
       Index const i = g.first;
-      double const step = 0.5 * drift.dt;
+      double const step = 0.5 * dt;
       SymMat<3, Lanes> const before = point.S.symmetric<Lanes>(i);
       SymMat<3, Lanes> trial;
       for (int c = 0; c < 6; ++c) trial.c[c] = before.c[c] + step * S_rate.scalar<Lanes>(i, c);
@@ -162,6 +179,18 @@ struct Predict {
       SymMat<3, Lanes> const S = law.predicted(point.history<Lanes>(i, before), trial, flow.scalar<Lanes>(i), step);
       for (int c = 0; c < 6; ++c) S_half.put(g, select(bears, S.c[c], Lanes(0.0)), c);
     });
+  }
+};
+
+/// Drifts to half time and predicts with the rates of the last step. Stress: PredictStress, or a LawPart of it.
+template <int D, class Stress>
+struct Predict {
+  Drift<D> drift;
+  Stress stress;
+
+  PIOLA_FN void operator()(Range block, Index) const {
+    drift(block);
+    stress(block);
   }
 };
 
@@ -173,7 +202,7 @@ struct HalfVolume {
   OwnComponents rho_half, volume_half;
   FailureSlot* failure;
 
-  HalfVolume(System const& s, BodyConstants const& body, MaterialTable const& table, double dt)
+  PIOLA_SHARED_FN HalfVolume(System const& s, BodyConstants const& body, MaterialTable const& table, double dt)
       : rho0(body.rho0),
         step(0.5 * dt),
         material(table),
@@ -189,7 +218,7 @@ struct HalfVolume {
 
   PIOLA_FN Lanes thickness_at(Index i) const { return thickness_half.scalar_or<Lanes>(i, 1.0); }
 
-  PIOLA_FN void operator()(Range block) const {
+  PIOLA_SHARED_FN void operator()(Range block) const {
     each_group(block, [&](Group g) {
       Index const i = g.first;
       Lanes const blend = phi.scalar<Lanes>(i);

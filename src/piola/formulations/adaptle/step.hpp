@@ -23,7 +23,8 @@ struct Step {
   void predict(double dt) const {
     for (int b = 0; b < s.bodies; ++b)
       with_solid(s.body[b].material, [&](auto const& law) {
-        exec::for_each_block(body_range(b), Predict<D, std::decay_t<decltype(law)>>(law, s, material_of(b), dt));
+        PredictStress const stress(law, s, dt);
+        predict(b, dt, LawPart<>(stress));
       });
     if (s.settings.axisymmetric)
       exec::for_each_block(Range{0, s.particles},
@@ -39,8 +40,8 @@ struct Step {
   void half_state(double dt) const {
     for (int b = 0; b < s.bodies; ++b)
       with_solid(s.body[b].material, [&](auto const& law) {
-        exec::for_each_block(
-            body_range(b), HalfState<D, Corrected, std::decay_t<decltype(law)>>(law, s, s.body[b], material_of(b), dt));
+        HalfStress const stress(law, s, dt);
+        half_state<Corrected>(b, dt, LawPart<>(stress));
       });
   }
 
@@ -72,9 +73,9 @@ struct Step {
     exec::ReproducibleSums<BlockMeasures::sums> sums;
     for (int b = 0; b < s.bodies; ++b)
       with_solid(s.body[b].material, [&](auto const& law) {
-        Range const r = body_range(b);
-        exec::for_each_block(r, Finish<D, std::decay_t<decltype(law)>>(law, s, s.body[b], material_of(b), dt));
-        add_blocks(exec::block_count(r), m, sums);
+        FinishStress const stress(law, s, s.body[b], dt);
+        finish(b, dt, law.damages, LawPart<BlockScratch>(stress));
+        add_blocks(exec::block_count(body_range(b)), m, sums);
       });
     m.neighbour_overflow = s.neighbour_overflow;
     if (s.shared) combine_over_ranks(m, sums);
@@ -90,6 +91,22 @@ struct Step {
   }
 
  private:
+  /// Parts of a step for one body, by what its law does.
+  PIOLA_SHARED_FN void predict(int b, double dt, LawPart<> const& stress) const {
+    exec::for_each_block(body_range(b), Predict<D, LawPart<>>{Drift<D>(s, material_of(b), dt), stress});
+  }
+  template <bool Corrected>
+  PIOLA_SHARED_FN void half_state(int b, double dt, LawPart<> const& stress) const {
+    exec::for_each_block(body_range(b), HalfState<D, Corrected, LawPart<>>{
+                                            HalfVolume(s, s.body[b], material_of(b), dt), stress,
+                                            WriteRecords<D, Corrected>(s, s.body[b], material_of(b), dt)});
+  }
+  PIOLA_SHARED_FN void finish(int b, double dt, bool damages, LawPart<BlockScratch> const& stress) const {
+    exec::for_each_block(body_range(b), Finish<D, LawPart<BlockScratch>>{
+                                            Kick<D>(s, material_of(b), dt), stress,
+                                            StepEnd<D>(s, s.body[b], material_of(b), damages, dt), s.partial});
+  }
+
   /// Puts components of the records of images for sums over reference neighbours.
   void put_images(int first, int last) const {
     if (!s.material.used) return;
@@ -197,7 +214,7 @@ struct Step {
     said.first.put(*s.failure);
   }
 
-  void add_blocks(Index blocks, StepSums& m, exec::ReproducibleSums<BlockMeasures::sums>& sums) const {
+  PIOLA_SHARED_FN void add_blocks(Index blocks, StepSums& m, exec::ReproducibleSums<BlockMeasures::sums>& sums) const {
     using B = BlockMeasures;
     for (Index k = 0; k < blocks; ++k) {
       double const* p = s.partial + static_cast<std::ptrdiff_t>(k) * B::size;

@@ -8,14 +8,14 @@
 namespace piola::jst_sph::inline PIOLA_BACKEND {
 namespace {
 
-template <int D, int Smoothed, class Law>
-void launch_law(Range r, UpdateStress<D, Smoothed, Law> const& stress, exec::Scratch const& scratch) {
-  exec::for_each(r, exec::WithScratch<UpdateStress<D, Smoothed, Law>>{stress, scratch});
+template <int D, class Law>
+void launch_law(Range r, UpdateStress<D, Law> const& stress, exec::Scratch const& scratch) {
+  exec::for_each(r, exec::WithScratch<UpdateStress<D, Law>>{stress, scratch});
 }
 
-template <int D, int Smoothed, class... Law>
+template <int D, class... Law>
 void launch_laws(Range r, void const* passes, exec::Scratch const& scratch, LawList<Law...>) {
-  (launch_law<D, Smoothed>(r, *static_cast<UpdateStress<D, Smoothed, Law> const*>(passes), scratch), ...);
+  (launch_law<D>(r, *static_cast<UpdateStress<D, Law> const*>(passes), scratch), ...);
 }
 
 template <int D, Biharmonic B>
@@ -29,8 +29,7 @@ void launch_all(Range r, void const* passes, exec::Scratch const& scratch, doubl
   using Unstabilised = DifferentiateVelocity<D, 0, ListLoader<D>>;
   exec::for_each(r, exec::WithScratch<Sweep>{exec::as<Sweep>(passes), scratch});
   exec::for_each(r, exec::WithScratch<Unstabilised>{*static_cast<Unstabilised const*>(passes), scratch});
-  launch_laws<D, D>(r, passes, scratch, Laws{});
-  launch_laws<D, 0>(r, passes, scratch, Laws{});
+  launch_laws<D>(r, passes, scratch, Laws{});
   launch_forces<D, Biharmonic::none>(r, *static_cast<SumForces<D, Biharmonic::none, D, ListLoader<D>> const*>(passes),
                                      partial);
   launch_forces<D, Biharmonic::adjoint>(

@@ -50,41 +50,42 @@ class Step {
     return {loader_, {read_neighbours(b_.u), read_reference(b_.alpha), read_reference(b_.beta)}};
   }
 
-  void differentiate(StageUpdate const& stage) {
-    if (b_.constants.biharmonic == Biharmonic::none)
-      differentiate<0>(stage);
-    else if (smooths_volume(b_.constants))
-      differentiate<D + 1>(stage);
+  /// The first sweep, with the pass that uses its sums.
+  PIOLA_SHARED_FN void sweep_then(int smoothed, exec::PointPass const& then) const {
+    if (smoothed == 0)
+      exec::for_each_then(b_.slots, first_sweep<0>(), then);
+    else if (smoothed == D)
+      exec::for_each_then(b_.slots, first_sweep<D>(), then);
     else
-      differentiate<D>(stage);
+      exec::for_each_then(b_.slots, first_sweep<D + 1>(), then);
   }
 
-  template <int Smoothed>
   void differentiate(StageUpdate const& stage) {
-    auto const sweep = first_sweep<Smoothed>();
+    int const smoothed = b_.constants.biharmonic == Biharmonic::none ? 0 : smooths_volume(b_.constants) ? D + 1 : D;
     bool const to_F = stage.second || b_.constants.variables == Variables::displacement;
     FieldRef const& J_out = smooths_volume(b_.constants) ? b_.J_next : b_.J;
     EvolvedGeometry const evolved{
         read(b_.H),   read(b_.H_star), read(b_.J), read(b_.J_n), write(stage.second ? b_.H : b_.H_star),
         write(J_out), write(b_.J_n)};
     with_law(b_.material, [&](auto const& law) {
-      UpdateStress<D, Smoothed, std::decay_t<decltype(law)>> const update{law,
-                                                                          b_.constants,
-                                                                          stage,
-                                                                          read_reference(b_.C),
-                                                                          read_reference(b_.V),
-                                                                          read(b_.wave_speed),
-                                                                          read(b_.F),
-                                                                          read(b_.F_star),
-                                                                          evolved,
-                                                                          write(to_F ? b_.F : b_.F_star),
-                                                                          write(b_.A),
-                                                                          write(b_.w),
-                                                                          write(b_.rate),
-                                                                          write(b_.J_rate),
-                                                                          write(b_.wave_speed_next),
-                                                                          b_.failure};
-      exec::for_each_then(b_.slots, sweep, exec::erased(update));
+      UpdateStress<D, std::decay_t<decltype(law)>> const update{law,
+                                                                smoothed,
+                                                                b_.constants,
+                                                                stage,
+                                                                read_reference(b_.C),
+                                                                read_reference(b_.V),
+                                                                read(b_.wave_speed),
+                                                                read(b_.F),
+                                                                read(b_.F_star),
+                                                                evolved,
+                                                                write(to_F ? b_.F : b_.F_star),
+                                                                write(b_.A),
+                                                                write(b_.w),
+                                                                write(b_.rate),
+                                                                write(b_.J_rate),
+                                                                write(b_.wave_speed_next),
+                                                                b_.failure};
+      sweep_then(smoothed, exec::erased(update));
     });
   }
 

@@ -54,9 +54,10 @@ PIOLA_FN Lanes wave_speed_of(Law const& law, Constants const& k, Mat<3, Lanes> c
 ///   stage 1: F* = F^n + dt F_dot;  stage 2: F^(n+1) = 1/2 (F^n + F* + dt F_dot*)            (43)
 /// and the same for H and J. For displacement variables F_a = (sum_b s (x_b - x_a) (x) r) C_a instead (34).
 /// Records the first particle whose new F is inverted or not a number.
-template <int D, int Smoothed, class Law>
+template <int D, class Law>
 struct UpdateStress {
   Law law;
+  int smoothed;  ///< sums L f: none, those of v (D), or also that of J (D + 1)
   Constants k;
   StageUpdate stage;
   ReferenceView C, V;
@@ -71,7 +72,7 @@ struct UpdateStress {
     Mat<D, Lanes> const F = deform(i, gradient, volume);
     Mat<D, Lanes> const P = restrict_to<D>(stress(i, embed<D>(F), gradient));
     A.matrix<D>(i, (volume * (1.0 / k.kernel_volume)) * (P * C.symmetric<D, Lanes>(i)));
-    if constexpr (Smoothed > 0) stabilise(i, in);
+    if (smoothed > 0) stabilise(i, in);
   }
 
  private:
@@ -126,7 +127,8 @@ struct UpdateStress {
 
   PIOLA_INLINE_FN void stabilise(Index i, exec::Scratch const& in) const {
     Lanes const c = wave_speed.scalar<Lanes>(i);
-    for (int j = 0; j < Smoothed; ++j) {
+    for (int j = 0; j < D + 1; ++j) {
+      if (j >= smoothed) break;
       double const eps2 = j < D ? k.eps2 : k.eps2_J;
       Lanes const Lf = load<Lanes>(in.at(i, D * D + j));
       w.scalar(i, Lf, j);

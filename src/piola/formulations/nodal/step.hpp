@@ -93,7 +93,7 @@ class Step {
     return {b_.list, read_neighbours(b_.motion_for_neighbours).data, read_neighbours(b_.stress_for_neighbours).data};
   }
 
-  StressResultants<D> resultants() const {
+  PIOLA_SHARED_FN StressResultants<D> resultants() const {
     return {b_.particles,
             read_reference(b_.V),
             read_reference(b_.L),
@@ -105,7 +105,7 @@ class Step {
   }
 
   /// The first sweep, block by block, with the pass that uses its sums.
-  void fused(Range slots, exec::PointPass const& then) {
+  PIOLA_SHARED_FN void fused(Range slots, exec::PointPass const& then) {
     if (on_lattice())
       exec::for_each_then(
           slots, SumLatticeMotion<D>(LatticeSums<D>{b_.lattice, read_neighbours(b_.motion_for_neighbours), {}}), then);
@@ -167,31 +167,32 @@ class Step {
     Constants constants = range.constants;
     constants.least_share = b_.constants.least_share;
     if (!Observed && b_.implicit_pressure != nullptr) constants.kappa = 0;
-    auto const update_with = [&](auto const& law) {
-      using Law = std::decay_t<decltype(law)>;
-      UpdateStress<D, Law, Observed> const update{law,
-                                                  constants,
-                                                  resultants(),
-                                                  read(b_.offset),
-                                                  read(b_.C_measured),
-                                                  write(b_.C_measured),
-                                                  b_.marks,
-                                                  read(b_.kept),
-                                                  {dt, b_.viscosity, read(b_.viscous), write(b_.viscous)},
-                                                  write(b_.change),
-                                                  write(b_.F),
-                                                  write(b_.P),
-                                                  write(b_.cell),
-                                                  b_.failure};
-      fused(slots, exec::erased(update));
-    };
-    with_law(range.material, update_with);
+    with_law(range.material, [&](auto const& law) { update_stress<Observed>(law, constants, slots, dt); });
     with_solid(range.material, [&](auto const& law) {
       using Cells = SolidCells<D>;
       auto const wanted = Observed ? Cells::Wanted::as_left : dt < 0 ? Cells::Wanted::trial : Cells::Wanted::end;
-      update_with(Cells(law, range, b_, maximum(dt, 0.0), wanted));
+      update_stress<Observed>(Cells(law, range, b_, maximum(dt, 0.0), wanted), constants, slots, dt);
     });
     of_law_before.put_back();
+  }
+
+  template <bool Observed, class Law>
+  PIOLA_SHARED_FN void update_stress(Law const& law, Constants const& constants, Range slots, double dt) {
+    UpdateStress<D, Law, Observed> const update{law,
+                                                constants,
+                                                resultants(),
+                                                read(b_.offset),
+                                                read(b_.C_measured),
+                                                write(b_.C_measured),
+                                                b_.marks,
+                                                read(b_.kept),
+                                                {dt, b_.viscosity, read(b_.viscous), write(b_.viscous)},
+                                                write(b_.change),
+                                                write(b_.F),
+                                                write(b_.P),
+                                                write(b_.cell),
+                                                b_.failure};
+    fused(slots, exec::erased(update));
   }
 
   static Index group_of(Index slot) { return slot - slot % lane_count; }
