@@ -2,6 +2,7 @@
 #include "piola/report/page.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
+#include "piola/report/page_sources.hpp"
 #include <cerrno>
 #include <fmt/format.h>
 

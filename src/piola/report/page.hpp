@@ -7,11 +7,6 @@
 
 namespace piola::report {
 
-/// The page's own sources, compiled into the program (web/, cmake/PiolaWeb.cmake).
-namespace web {
-extern std::string_view const style, body, script;
-}  // namespace web
-
 /// A page that is written piece by piece to "PATH.part" and renamed when it is complete. The page is self-contained and
 /// may not fetch anything (Content-Security-Policy). Texts of a case occur in JSON only, or escaped. All members throw
 /// FileError; a previous page is then kept.

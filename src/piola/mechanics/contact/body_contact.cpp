@@ -11,7 +11,7 @@ namespace piola::contact {
 namespace {
 
 /// Opposing normals have a negative product; until lists are rebuilt they rotate by no more than this margin allows.
-constexpr double facing = 0.8;
+constexpr double largest_cosine = 0.8;
 
 /// Bounding box of points.
 struct Box {
@@ -35,7 +35,7 @@ bool can_touch(ContactModel const& model, Index target, Index source) {
   SurfacePoints const& points = model.points;
   SurfacePoints::Point const &a = points[target], &b = points[source];
   if (a.body != b.body) return true;
-  return dot(points.plane(target).n, points.plane(source).n) < facing &&
+  return dot(points.plane(target).n, points.plane(source).n) < largest_cosine &&
          !model.definition.are_neighbours(a.body, a.host, b.host);
 }
 
