@@ -226,6 +226,39 @@ TEST(AdaptleAxisymmetry, UniformPressureLeavesNoForceNearTheAxis) {
   }
 }
 
+/// Smallest and largest axial acceleration of the rings with a complete neighbourhood in a pressure that grows along
+/// the axis, over the mean.
+std::array<double, 2> spread_of_axial_acceleration(Cloud const& cloud) {
+  double least = 1e300, most = -1e300, sum = 0, count = 0;
+  for (Index i = 0; i < cloud.size(); ++i) {
+    Point const X = cloud.X(i);
+    if (X[0] > 0.7 || std::fabs(X[1] - 0.6) > 0.11) continue;
+    double const a = value_at(cloud.system().field.a, i, 1);
+    least = std::min(least, a);
+    most = std::max(most, a);
+    sum += a;
+    count += 1;
+  }
+  return {least * count / sum, most * count / sum};
+}
+
+TEST(AdaptleAxisymmetry, APressureThatGrowsAlongTheAxisAcceleratesAllRingsAlike) {
+  for (auto const& [form, shape] : {std::pair{"central", section(0, 1)},
+                                    {"published", section(0, 1)},
+                                    {"central", on_axis()},
+                                    {"published", on_axis()}}) {
+    Assembly a = rings({shape});
+    choose(a, "description", "total_lagrangian");
+    choose(a, "viscosity_form", form);
+    displace(a, [](Point const& X) { return Point{0, -1e-3 * X[1] * X[1], 0}; });
+    Cloud cloud(a);
+    cloud.evaluate();
+    auto const [least, most] = spread_of_axial_acceleration(cloud);
+    EXPECT_GT(least, 0.92) << form << " " << (shape.placement == cell_centred);
+    EXPECT_LT(most, 1.08) << form << " " << (shape.placement == cell_centred);
+  }
+}
+
 TEST(AdaptleAxisymmetry, SectionsOfConvertedRingsFollowTheirVolume) {
   Assembly a = rings({section(0, 1)});
   choose_formula(a, "convert_when", "t > 0");

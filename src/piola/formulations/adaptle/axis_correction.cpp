@@ -30,6 +30,13 @@ void each_pair(AxisCorrection::Sums const& sums, Index a, double spacing, F cons
     if (sums.neighbour[at(k)] != sums.particles) f(k, neighbour_at(sums, a, k, spacing));
 }
 
+/// K moment, K symmetric.
+std::array<double, 3> solved(std::array<double, 6> const& K, double const (&moment)[3]) {
+  return {K[0] * moment[0] + K[1] * moment[1] + K[2] * moment[2],
+          K[1] * moment[0] + K[3] * moment[1] + K[4] * moment[2],
+          K[2] * moment[0] + K[4] * moment[1] + K[5] * moment[2]};
+}
+
 }  // namespace
 
 AxisCorrection::AxisCorrection(Sums const& sums, std::span<Body const> bodies) : bodies_(bodies.begin(), bodies.end()) {
@@ -45,7 +52,10 @@ AxisCorrection::AxisCorrection(Sums const& sums, std::span<Body const> bodies) :
   });
   set_fits(sums);
   set_residuals(sums);
-  store(sums, solve(sums));
+  std::array<std::vector<double>, 2> changes{radial_changes(sums, solve(sums)),
+                                             std::vector<double>(sums.neighbour.size())};
+  each_particle([&](Index a, Body const&) { add_axial_changes(sums, a, changes[1]); });
+  store(sums, changes);
 }
 
 void AxisCorrection::set_fits(Sums const& sums) {
@@ -113,10 +123,7 @@ std::array<double, 3> AxisCorrection::fitted(Sums const& sums, Index a, std::spa
     moment[1] += value * b.R;
     moment[2] += value * b.Z;
   });
-  Fit const& K = fits_[at(a)];
-  return {K[0] * moment[0] + K[1] * moment[1] + K[2] * moment[2],
-          K[1] * moment[0] + K[3] * moment[1] + K[4] * moment[2],
-          K[2] * moment[0] + K[4] * moment[1] + K[5] * moment[2]};
+  return solved(fits_[at(a)], moment);
 }
 
 double AxisCorrection::change(Sums const& sums, Index a, Offset k, std::span<double const> mu,
@@ -181,11 +188,10 @@ std::vector<double> AxisCorrection::solve(Sums const& sums) {
   return mu;
 }
 
-/// Keeps the changes of the particles near the axis; farther away they vanish.
-void AxisCorrection::store(Sums const& sums, std::span<double const> mu) {
+/// Changes along the radius, per pair; zero farther away, where they vanish.
+std::vector<double> AxisCorrection::radial_changes(Sums const& sums, std::span<double const> mu) {
   constexpr double negligible = 1e-6;
   std::vector<double> changes(sums.neighbour.size(), 0);
-  std::vector<std::uint8_t> kept(residual_.size(), 0);
   each_particle([&](Index a, Body const& body) {
     std::array const fit = fitted(sums, a, mu);
     double largest = 0, steepest = 0;
@@ -194,21 +200,63 @@ void AxisCorrection::store(Sums const& sums, std::span<double const> mu) {
       largest = std::max(largest, std::fabs(changes[at(k)]));
       steepest = std::max(steepest, std::fabs(sums.radial[at(k)]));
     });
-    kept[at(a)] = largest > negligible * steepest ? 1 : 0;
+    if (largest > negligible * steepest) return;
+    std::fill(changes.begin() + sums.begin[at(a)], changes.begin() + sums.begin[at(a) + 1], 0);
+  });
+  return changes;
+}
+
+/// Factor on the gradient along the axis of a pair, c_ab/R_a with c_ab = c_ba: without it the force of b has the weight
+/// R_b, whose mean over neighbours exceeds R_a near the axis. Neighbours behind the axis have none.
+double AxisCorrection::circle_ratio(Sums const& sums, Index a, Offset k) const {
+  constexpr double first = 4, last = 12;  // [spacings], between which the factor fades to 1
+  double const spacing = spacing_[at(a)];
+  Neighbour const b = neighbour_at(sums, a, k, spacing);
+  double const here = ring_radius(sums.fields.X.at(a), spacing), there = ring_radius(sums.fields.X.at(b.slot), spacing);
+  double const mean = 0.5 * (here + there), faded = std::clamp((last - mean / spacing) / (last - first), 0.0, 1.0);
+  bool const axis = is_on_axis(sums, a) || is_on_axis(sums, b.slot);
+  double const circle = axis ? std::min(here, there) : b.sign > 0 ? mean : 0;
+  return 1 + faded * (circle / here - 1);
+}
+
+/// Adds the changes of particle a along the axis, with which gradients of linear fields stay exact.
+void AxisCorrection::add_axial_changes(Sums const& sums, Index a, std::vector<double>& to) const {
+  double moment[3]{};
+  each_pair(sums, a, spacing_[at(a)], [&](Offset k, Neighbour const& b) {
+    double const value = (circle_ratio(sums, a, k) - 1) * sums.axial[at(k)];
+    to[at(k)] = value;
+    moment[0] += value;
+    moment[1] += value * b.R;
+    moment[2] += value * b.Z;
+  });
+  std::array const fit = solved(fits_[at(a)], moment);
+  each_pair(sums, a, spacing_[at(a)],
+            [&](Offset k, Neighbour const& b) { to[at(k)] -= sums.s[at(k)] * (fit[0] + fit[1] * b.R + fit[2] * b.Z); });
+}
+
+/// changes: per pair, along the radius and along the axis. Keeps those of particles that have any.
+void AxisCorrection::store(Sums const& sums, std::array<std::vector<double>, 2> const& changes) {
+  std::vector<std::uint8_t> kept(residual_.size(), 0);
+  each_particle([&](Index a, Body const& body) {
+    each_pair(sums, a, body.spacing, [&](Offset k, Neighbour const&) {
+      if (changes[0][at(k)] != 0 || changes[1][at(k)] != 0) kept[at(a)] = 1;
+    });
   });
   begin_.assign(residual_.size() + 1, 0);
   each_particle([&](Index a, Body const& body) {
     begin_[at(a)] = static_cast<Offset>(neighbour_.size());
     each_pair(sums, a, body.spacing, [&](Offset k, Neighbour const& b) {
       if (kept[at(a)] == 0 && kept[at(b.slot)] == 0) return;
+      AxisChange both{{changes[0][at(k)], changes[1][at(k)]}, {}};
       // The pair of the neighbour with this particle: behind the axis, with that of its image.
       Index const there = b.sign > 0 ? a : sums.particles + 1 + a;
-      double back = 0;
       for (Offset other = sums.begin[at(b.slot)]; other < sums.begin[at(b.slot) + 1]; ++other)
-        if (sums.neighbour[at(other)] == there && kept[at(b.slot)] != 0) back = b.sign * changes[at(other)];
+        if (sums.neighbour[at(other)] == there) {
+          both.back[0] = b.sign * changes[0][at(other)];
+          both.back[1] = changes[1][at(other)];
+        }
       neighbour_.push_back(sums.neighbour[at(k)]);
-      own_.push_back(kept[at(a)] != 0 ? changes[at(k)] : 0);
-      back_.push_back(back);
+      change_.push_back(both);
     });
     begin_[at(a) + 1] = static_cast<Offset>(neighbour_.size());
   });
@@ -216,11 +264,11 @@ void AxisCorrection::store(Sums const& sums, std::span<double const> mu) {
 
 AxisCorrectionTable AxisCorrection::view() const {
   if (begin_.empty()) return {};
-  return {begin_.data(), neighbour_.data(), own_.data(), back_.data()};
+  return {begin_.data(), neighbour_.data(), change_.data()};
 }
 
 std::size_t AxisCorrection::bytes() const {
-  return sizeof(Fit) * fits_.size() + sizeof(double) * (own_.size() + back_.size() + 3 * residual_.size()) +
+  return sizeof(Fit) * fits_.size() + sizeof(AxisChange) * change_.size() + sizeof(double) * 3 * residual_.size() +
          sizeof(Index) * neighbour_.size() + sizeof(Offset) * begin_.size();
 }
 

@@ -7,9 +7,10 @@
 
 namespace piola::adaptle {
 
-/// Changes of gradients near the axis, with which a uniform stress leaves no force on the particles there
-/// (docs/theory/adaptle.md, "Axisymmetric bodies"). The volumes of rings, weights of their stress, have a kink on the
-/// axis. The constructor throws InputError if they cannot be found.
+/// Changes of gradients near the axis, with which a uniform stress leaves no radial force on the particles there, and a
+/// gradient of the stress along the axis accelerates all alike (docs/theory/adaptle.md, "Axisymmetric bodies"). The
+/// volumes of rings, weights of their stress, have a kink on the axis. The constructor throws InputError if they cannot
+/// be found.
 class AxisCorrection {
  public:
   /// Sums over reference neighbours, of which those beyond `particles` are images behind the axis.
@@ -19,6 +20,7 @@ class AxisCorrection {
     std::span<Index const> neighbour;
     std::span<double const> s;       ///< per pair: -W'(r)/r
     std::span<double const> radial;  ///< per pair: A0_b G_ab along the radius
+    std::span<double const> axial;   ///< per pair: A0_b G_ab along the axis
     Fields const& fields;
   };
   /// Particles of one body.
@@ -47,9 +49,12 @@ class AxisCorrection {
   /// The change of the gradient of particle a at its pair k.
   double change(Sums const& sums, Index a, Offset k, std::span<double const> mu,
                 std::array<double, 3> const& fit) const;
+  std::vector<double> radial_changes(Sums const& sums, std::span<double const> mu);
+  void add_axial_changes(Sums const& sums, Index a, std::vector<double>& to) const;
+  double circle_ratio(Sums const& sums, Index a, Offset k) const;
   void apply(Sums const& sums, std::span<double const> mu, std::vector<double>& to) const;
   std::vector<double> solve(Sums const& sums);
-  void store(Sums const& sums, std::span<double const> mu);
+  void store(Sums const& sums, std::array<std::vector<double>, 2> const& changes);
   template <class F>
   void each_particle(F const& f) const {
     for (Body const& body : bodies_)
@@ -63,7 +68,7 @@ class AxisCorrection {
   std::vector<std::uint8_t> closed_;  ///< per slot: whether its residual is removed
   std::vector<Offset> begin_;
   std::vector<Index> neighbour_;
-  std::vector<double> own_, back_;
+  std::vector<AxisChange> change_;
 };
 
 }  // namespace piola::adaptle

@@ -11,60 +11,67 @@ namespace piola::adaptle::inline PIOLA_BACKEND {
 /// Whether component (p, q) of a tensor changes its sign behind the axis.
 PIOLA_FN bool turns(int p, int q) { return (p == 0) != (q == 0); }
 
-/// Visits the weights near the axis of the marked particles of a group: f(lane, particle, neighbour, whether the
-/// neighbour's image is meant, place of the weight in the table, own weight). The own weight of a broken neighbour is
-/// 0.
+/// Visits the changes near the axis of the marked particles of a group: f(lane, particle, neighbour, sign of the radius
+/// of the neighbour or its image, change). The own change of a deleted neighbour is 0.
 template <class F>
-PIOLA_FN void for_each_axis_weight(AxisCorrectionTable const& table, Index particles, Components const& active, Group g,
+PIOLA_FN void for_each_axis_change(AxisCorrectionTable const& table, Index particles, Components const& active, Group g,
                                    Lanes const& marks, F const& f) {
   for (int l = 0; l < g.count; ++l) {
     Index const i = g.first + l;
     for (Offset k = table.begin[i]; k < table.begin[i + 1] && lane(marks, l) > 0; ++k) {
       Index const j = source_of(table.neighbour[k], particles);
-      f(l, i, j, j != table.neighbour[k], k, active.at(j) > 0 ? table.own[k] : 0.0);
+      AxisChange change = table.change[k];
+      if (!(active.at(j) > 0)) change.own[0] = change.own[1] = 0;
+      f(l, i, j, j != table.neighbour[k] ? -1.0 : 1.0, change);
     }
   }
 }
 
-/// The gradients along the radius that a change of weights near the axis adds to those of a group of particles, of
-/// displacements and of velocities at half time; zero in lanes that are not marked.
+/// Additions to the gradients of displacements and of velocities at half time of a group of particles near the axis,
+/// row by row; zero in lanes that are not marked.
 struct AxisGradients {
   AxisCorrectionTable table;
   Index particles;
   Components X, x, v_half, active;
 
-  PIOLA_FN void operator()(Group g, Lanes const& marks, Lanes (&of_u)[2], Lanes (&of_v)[2]) const {
-    double u[2][lane_count]{}, v[2][lane_count]{};
-    auto const add = [&](int l, Index i, Index j, bool is_image, Offset, double weight) {
+  PIOLA_FN void operator()(Group g, Lanes const& marks, Lanes (&of_u)[4], Lanes (&of_v)[4]) const {
+    double u[4][lane_count]{}, v[4][lane_count]{};
+    auto const add = [&](int l, Index i, Index j, double side, AxisChange const& change) {
       for (int p = 0; p < 2; ++p) {
-        double const sign = is_image && p == 0 ? -1 : 1;
-        u[p][l] += weight * (sign * (x.at(j, p) - X.at(j, p)) - (x.at(i, p) - X.at(i, p)));
-        v[p][l] += weight * (sign * v_half.at(j, p) - v_half.at(i, p));
+        double const sign = p == 0 ? side : 1;
+        double const du = sign * (x.at(j, p) - X.at(j, p)) - (x.at(i, p) - X.at(i, p));
+        double const dv = sign * v_half.at(j, p) - v_half.at(i, p);
+        for (int q = 0; q < 2; ++q) {
+          u[2 * p + q][l] += change.own[q] * du;
+          v[2 * p + q][l] += change.own[q] * dv;
+        }
       }
     };
-    for_each_axis_weight(table, particles, active, g, marks, add);
-    for (int p = 0; p < 2; ++p) {
-      of_u[p] = load<Lanes>(u[p]);
-      of_v[p] = load<Lanes>(v[p]);
+    for_each_axis_change(table, particles, active, g, marks, add);
+    for (int c = 0; c < 4; ++c) {
+      of_u[c] = load<Lanes>(u[c]);
+      of_v[c] = load<Lanes>(v[c]);
     }
   }
 };
 
-/// Forces of the same weights on a group of particles, of their own stress and in reaction to that of neighbours.
+/// Forces of the same changes on a group of particles, of their own stress and in reaction to that of neighbours.
 struct AxisForces {
   AxisCorrectionTable table;
   Index particles;
-  Components radial_stress, active;
+  Components section_stress, active;
 
   PIOLA_FN void operator()(Group g, Lanes const& marks, Lanes (&force)[2]) const {
     double sum[2][lane_count]{};
-    auto const add = [&](int l, Index i, Index j, bool is_image, Offset k, double weight) {
-      for (int p = 0; p < 2; ++p) {
-        double const sign = is_image && p == 1 ? -1 : 1;
-        sum[p][l] += weight * radial_stress.at(i, p) - table.back[k] * sign * radial_stress.at(j, p);
-      }
+    auto const add = [&](int l, Index i, Index j, double side, AxisChange const& change) {
+      for (int p = 0; p < 2; ++p)
+        for (int q = 0; q < 2; ++q) {
+          int const c = 2 * p + q;
+          double const sign = turns(p, q) ? side : 1;
+          sum[p][l] += change.own[q] * section_stress.at(i, c) - change.back[q] * sign * section_stress.at(j, c);
+        }
     };
-    for_each_axis_weight(table, particles, active, g, marks, add);
+    for_each_axis_change(table, particles, active, g, marks, add);
     for (int p = 0; p < 2; ++p) force[p] = load<Lanes>(sum[p]);
   }
 };

@@ -103,8 +103,8 @@ struct Fields {
   /// In the order of ContactSum.
   ParticleField contact{owner, "ContactSums", "1", ContactSum::size, Role::derived, has.touching};
 
-  /// (1 - phi) V0 P of axisymmetric bodies, its column of the radius.
-  ParticleField radial_stress{owner, "RadialStress", "J", 2, Role::derived, has.axisymmetric&& has.lagrangian};
+  /// (1 - phi) V0 P of axisymmetric bodies in the half section, row by row.
+  ParticleField section_stress{owner, "SectionStress", "J", 4, Role::derived, has.axisymmetric&& has.lagrangian};
 
   // Constants of the sums over reference neighbours, with s = -W'(r)/r and r = X_b - X_a.
   /// Inverse of sum_b V0_b s r (x) r, symmetric, of D dimensions; not for the published equations.

@@ -125,7 +125,7 @@ struct MaterialForces {
         particles(s.particles),
         body(b),
         on_eulerian(s.settings.equations.has_reactions()),
-        near_axis{of_body.axis, s.particles, read(s.field.radial_stress), read(s.field.active)},
+        near_axis{of_body.axis, s.particles, read(s.field.section_stress), read(s.field.active)},
         phi(read(s.field.phi)),
         active(read(s.field.active)),
         weight(read(s.field.weight())),

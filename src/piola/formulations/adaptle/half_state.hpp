@@ -12,7 +12,7 @@ struct WriteRecords {
   BodyConstants body;
   Settings settings;
   HalfVolume half;
-  OwnComponents radial_stress;
+  OwnComponents section_stress;
   double smallest_radius;
   Components X, x, v_half, volume, viscosity, active, S_half, pressure, rho_half, volume_half, F_rate, gap, K, N,
       gradient_mean;
@@ -23,7 +23,7 @@ struct WriteRecords {
       : body(of),
         settings(s.settings),
         half(s, of, table, dt),
-        radial_stress(write(s.field.radial_stress)),
+        section_stress(write(s.field.section_stress)),
         smallest_radius(s.smallest_radius),
         X(read(s.field.X)),
         x(read(s.field.x)),
@@ -76,14 +76,16 @@ struct WriteRecords {
   /// The D dimensions of F.
   PIOLA_FN Mat<D, Lanes> deformation(Index i) const { return restrict_to<D>(half.F.matrix<Lanes>(i)); }
 
-  PIOLA_FN void clear_radial_stress(Group g) const {
-    for (int p = 0; p < 2 && radial_stress.data != nullptr; ++p) radial_stress.put(g, Lanes(0.0), p);
+  PIOLA_FN void clear_section_stress(Group g) const {
+    for (int p = 0; p < 4 && section_stress.data != nullptr; ++p) section_stress.put(g, Lanes(0.0), p);
   }
-  PIOLA_FN void put_radial_stress(Group g, Lanes const& weight, Mat<D, Lanes> const& F, Here const& here) const {
-    if (radial_stress.data == nullptr) return;
+  PIOLA_FN void put_section_stress(Group g, Lanes const& weight, Mat<D, Lanes> const& F, Here const& here) const {
+    if (section_stress.data == nullptr) return;
     Mat<D, Lanes> const inverse_F = inverse(F);
     for (int p = 0; p < 2; ++p)
-      radial_stress.put(g, weight * (here.stress(p, 0) * inverse_F(0, 0) + here.stress(p, 1) * inverse_F(0, 1)), p);
+      for (int q = 0; q < 2; ++q)
+        section_stress.put(g, weight * (here.stress(p, 0) * inverse_F(q, 0) + here.stress(p, 1) * inverse_F(q, 1)),
+                           2 * p + q);
   }
 
   /// The halves of damping and springs contained in A, per unit of dF/dt and of F - I, for total-Lagrangian particles.
@@ -116,11 +118,11 @@ struct WriteRecords {
           for (int l = 0; l < D; ++l) sum += here.stress(p, l) * FN(l, q);
           A[p * D + q] = weight * sum;
         }
-      put_radial_stress(g, select(bears, weight, Lanes(0.0)), F, here);
+      put_section_stress(g, select(bears, weight, Lanes(0.0)), F, here);
       add_hourglass(i, here, F, A);
     }
     for (Lanes& value : A) value = select(bears, value, Lanes(0.0));
-    if (!any(bears)) clear_radial_stress(g);
+    if (!any(bears)) clear_section_stress(g);
     store_in_records<D>(material, settings.equations, g, R::A, A);
   }
 
@@ -156,11 +158,11 @@ struct WriteRecords {
         r[R::n - first + p] = n;
       }
       // In the plane.
-      put_radial_stress(g, select(bears, share, Lanes(0.0)), F, here);
+      put_section_stress(g, select(bears, share, Lanes(0.0)), F, here);
       r[R::inverse_J - first] = here.rho * (settings.axisymmetric ? full(2, 2) : here.thickness) / body.rho0;
       add_hourglass(i, here, F, r);
     }
-    if (!any(bears)) clear_radial_stress(g);
+    if (!any(bears)) clear_section_stress(g);
     for (int c = 0; c < R::inverse_J - first; ++c) r[c] = select(bears, r[c], Lanes(0.0));
     r[R::inverse_J - first] = select(bears, r[R::inverse_J - first], Lanes(1.0));
     store_in_records<D>(material, settings.equations, g, first, r);

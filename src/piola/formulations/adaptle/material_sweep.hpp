@@ -206,11 +206,11 @@ struct Deform {
   /// Adds what axisymmetric bodies have more: the correction near the axis, and the stretch of the circle.
   PIOLA_FN void turn_around_axis(Group g, Lanes const& marks, Mat<3, Lanes>& gradient, Mat<3, Lanes>& rate) const {
     if (near_axis.table.begin != nullptr) {
-      Lanes u[2], v[2];
+      Lanes u[4], v[4];
       near_axis(g, marks, u, v);
-      for (int p = 0; p < 2; ++p) {
-        gradient(p, 0) += u[p];
-        rate(p, 0) += v[p];
+      for (int c = 0; c < 4; ++c) {
+        gradient(c / 2, c % 2) += u[c];
+        rate(c / 2, c % 2) += v[c];
       }
     }
     Lanes const from = X.scalar<Lanes>(g.first);

@@ -260,12 +260,13 @@ void ReferenceLists::correct(Fields& fields, std::vector<BodyConstants> const& b
 }
 
 void ReferenceLists::correct_axis(std::vector<BodyConstants> const& bodies, Fields const& fields) {
-  std::vector<double> s(neighbour_.size(), 0), radial(neighbour_.size(), 0);
+  std::vector<double> s(neighbour_.size(), 0), radial(neighbour_.size(), 0), axial(neighbour_.size(), 0);
   for_each_local([&](Index i) {
     for (Offset k = begin_[at(i)]; k < begin_[at(i) + 1]; ++k) {
       if (neighbour_[at(k)] == particles_) continue;
       s[at(k)] = gradient(k);
-      radial[at(k)] = radial_gradient(i, k, fields);
+      radial[at(k)] = gradient_along(0, i, k, fields);
+      axial[at(k)] = gradient_along(1, i, k, fields);
     }
   });
   std::vector<AxisCorrection::Body> of;
@@ -274,19 +275,19 @@ void ReferenceLists::correct_axis(std::vector<BodyConstants> const& bodies, Fiel
     kernel_(b.reference_h, 0.36 * b.reference_h * b.reference_h, own, none);
     of.push_back({{b.first, b.last}, b.spacing, own});
   }
-  axis_ = AxisCorrection({particles_, {begin_.begin(), begin_.end()}, neighbour_, s, radial, fields}, of);
+  axis_ = AxisCorrection({particles_, {begin_.begin(), begin_.end()}, neighbour_, s, radial, axial, fields}, of);
 }
 
-/// A0_b G_ab along the radius.
-double ReferenceLists::radial_gradient(Index i, Offset k, Fields const& fields) const {
+/// A0_b G_ab along the radius, 0, or the axis, 1.
+double ReferenceLists::gradient_along(int axis, Index i, Offset k, Fields const& fields) const {
   Index const j = neighbour_[at(k)];
   double sum = 0;
   for (int c = 0; c < 2; ++c) {
     double const r = fields.X.at(j, c) - fields.X.at(i, c);
     if (!equations_.stores_kernel())
-      sum += fields.K.at(i, SymMat<2>::at(0, c)) * gradient(k) * r;
+      sum += fields.K.at(i, SymMat<2>::at(axis, c)) * gradient(k) * r;
     else
-      sum += fields.N.at(i, c) * (gradient(k) * r - W_[at(k)] * fields.gradient_mean.at(i, c));
+      sum += fields.N.at(i, 3 * axis + c) * (gradient(k) * r - W_[at(k)] * fields.gradient_mean.at(i, c));
   }
   return fields.weight().at(j) * sum;
 }

@@ -75,7 +75,7 @@ class ReferenceLists {
   void end_list(Index i, int lanes);
   void find_images();
   void correct_axis(std::vector<BodyConstants> const& bodies, Fields const& fields);
-  double radial_gradient(Index i, Offset k, Fields const& fields) const;
+  double gradient_along(int axis, Index i, Offset k, Fields const& fields) const;
   void correct(Fields& fields, std::vector<BodyConstants> const& bodies, int dimension);
   void invert(Fields& fields, int dimension);
   template <class F>

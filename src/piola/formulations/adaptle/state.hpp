@@ -159,11 +159,16 @@ struct MaterialRows {
   StencilTable stencil;       ///< s without volumes, and W
 };
 
-/// Changes of gradients along the radius near the axis (AxisCorrection). Null: none.
+/// Changes of the gradients of a pair along the radius and along the axis.
+struct AxisChange {
+  double own[2], back[2];  ///< of the particle, and of the neighbour at the particle
+};
+
+/// Changes of gradients near the axis (AxisCorrection). Null: none.
 struct AxisCorrectionTable {
   Offset const* begin = nullptr;  ///< per slot, one more at the end
   Index const* neighbour = nullptr;
-  double const *own = nullptr, *back = nullptr;  ///< per pair: of the particle, and of the neighbour at the particle
+  AxisChange const* change = nullptr;  ///< per pair
 };
 
 struct MaterialTable {
