@@ -25,7 +25,7 @@ struct SolidHistoryOf {
   V damage = V(0.0);          ///< 0 to 1
   V plastic_work = V(0.0);    ///< per reference volume [J/m^3]
   V bulking = V(0.0);         ///< pressure by bulking of broken material [Pa]
-  V burnt = V(1.0);           ///< burnt fraction of an explosive
+  V burnt = V(1.0);           ///< burnt fraction of an explosive by the time since its ignition
   V toughness = V(1.0);       ///< the point's own factor on the failure strength; constant
 };
 using SolidHistory = SolidHistoryOf<double>;
@@ -82,7 +82,7 @@ class Solid {
   template <class V = double>
   PIOLA_FN V pressure(SolidHistoryOf<V> const& h, std::type_identity_t<V> const& rho,
                       std::type_identity_t<V> const& e) const {
-    V const p = h.burnt * eos_.template pressure<V>(rho, e) + h.bulking;
+    V const p = burnt(h, rho) * eos_.template pressure<V>(rho, e) + h.bulking;
     V most = spall_pressure * h.toughness;
     if constexpr (Strength::brittle) most = minimum(most, strength_.largest_tension(h.damage));
     V const least = -most;
@@ -219,6 +219,11 @@ class Solid {
     damages = wears_ || spall_ > 0;
   }
 
+  template <class V>
+  PIOLA_FN V burnt(SolidHistoryOf<V> const& h, V const& rho) const {
+    if constexpr (requires { eos_.template burnt<V>(h.burnt, rho); }) return eos_.template burnt<V>(h.burnt, rho);
+    return h.burnt;
+  }
   PIOLA_FN static FlowState flow_state(SolidHistory const& h, double pressure, double compression = 1) {
     return {h.plastic_strain, h.temperature, pressure, h.damage, compression};
   }

@@ -13,7 +13,7 @@ namespace piola::inline PIOLA_BACKEND {
 /// Gases of a detonated explosive, by Jones, Wilkins and Lee (E. L. Lee, H. C. Hornig, J. W. Kury, UCRL-50422, 1968).
 /// V = rho0/rho, E = rho0 e energy per volume of the explosive, which starts at the energy of detonation:
 ///   p = A (1 - omega/(R1 V)) exp(-R1 V) + B (1 - omega/(R2 V)) exp(-R2 V) + omega E/V
-/// Partly burnt explosive has a fraction of this pressure (SolidHistory::burnt).
+/// Partly burnt explosive has a fraction of this pressure: see burnt().
 class JwlEos {
  public:
   static constexpr std::string_view name = "jwl";
@@ -35,11 +35,21 @@ class JwlEos {
         b_(v[1]),
         r1_(v[2]),
         r2_(v[3]),
-        omega_(v[4]) {}
+        omega_(v[4]),
+        per_compression_(1 / (1 - cj_volume())) {}
 
   double initial_energy;  ///< [J/kg]
   double front_speed;     ///< of the detonation [m/s]
 
+  /// Burnt fraction of an explosive: the larger of that by the time since its ignition and of that by its compression,
+  /// (1 - V)/(1 - V_CJ) up to 1, V_CJ the state of Chapman and Jouguet (LS-DYNA, MAT_HIGH_EXPLOSIVE_BURN, beta = 0;
+  /// Wilkins 1964). By time alone, explosive ahead of a front that is lit too slowly has no pressure, and is compressed
+  /// without bound.
+  template <class V = double>
+  PIOLA_FN V burnt(std::type_identity_t<V> const& by_time, std::type_identity_t<V> const& rho) const {
+    V const by_volume = (1.0 - rho0_ / rho) * per_compression_;
+    return minimum(maximum(by_time, by_volume), V(1.0));
+  }
   /// Pressure of the gases, positive in compression [Pa]. rho: density [kg/m^3], e: specific energy [J/kg].
   template <class V = double>
   PIOLA_FN V pressure(std::type_identity_t<V> const& rho, std::type_identity_t<V> const& e) const {
@@ -74,7 +84,26 @@ class JwlEos {
     return {fall * (1.0 - part), fall * (r * V * (1.0 - part) - part) / rho};
   }
 
-  double rho0_, a_, b_, r1_, r2_, omega_;
+  /// V of Chapman and Jouguet: where the line of Rayleigh touches the Hugoniot, and so is least steep.
+  PIOLA_FN double cj_volume() const {
+    double const part = 0.5 * (std::sqrt(5.0) - 1);  // golden section, 1e-5 at the end
+    double low = 0.5, high = 0.99;
+    for (int k = 0; k < 22; ++k) {
+      double const left = high - part * (high - low), right = low + part * (high - low);
+      if (rayleigh_slope(left) < rayleigh_slope(right))
+        high = right;
+      else
+        low = left;
+    }
+    return 0.5 * (low + high);
+  }
+  /// p/(1 - V) of the Hugoniot E = E0 + p (1 - V)/2 [Pa].
+  PIOLA_FN double rayleigh_slope(double V) const {
+    double const rho = rho0_ / V;
+    return pressure(rho, initial_energy) / (1 - omega_ * (1 - V) / (2 * V)) / (1 - V);
+  }
+
+  double rho0_, a_, b_, r1_, r2_, omega_, per_compression_;
 };
 
 }  // namespace piola::inline PIOLA_BACKEND
