@@ -166,5 +166,18 @@ TEST(Hole, GivesNoNumberWhereOneSideIsEmpty) {
   EXPECT_TRUE(std::isnan(values.at(1)));
 }
 
+TEST(Hole, OfAHalfSectionIsTwiceAsWideAsItsUpperSide) {
+  auto set = testing::make_row(holed.size());
+  set.axisymmetric = true;
+  auto spec = hole_spec();
+  spec.axis = 1;
+  spec.at = {0, 0, 0};
+  auto x = holed;
+  for (auto& p : x) p = {std::fabs(p[1] - 1), p[0], 0};
+  auto const values = evaluate(spec, set, x);
+  EXPECT_NEAR(values.at(0), 4, 1e-14);
+  EXPECT_NEAR(values.at(1), 18, 1e-14);
+}
+
 }  // namespace
 }  // namespace piola

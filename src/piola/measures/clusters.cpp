@@ -100,6 +100,7 @@ std::vector<double> nearest_distances(std::vector<Point> const& points, std::spa
 Measured::Measured(ProbeSpec const& probe, ParticleSet const& particles, Body const& body,
                    std::vector<std::int64_t> chosen)
     : spec(probe),
+      axisymmetric(particles.axisymmetric),
       spacing(*std::min_element(body.spacing.begin(), body.spacing.begin() + particles.dimension)),
       ids(std::move(chosen)) {
   PIOLA_EXPECTS(particles.dimension >= 1 && particles.dimension <= 3);

@@ -34,6 +34,7 @@ std::vector<double> nearest_distances(std::vector<std::array<double, 3>> const& 
 struct Measured {
   Measured(ProbeSpec const& probe, ParticleSet const& particles, Body const& body, std::vector<std::int64_t> chosen);
   ProbeSpec spec;
+  bool axisymmetric;              ///< half sections: both sides of the axis are alike
   double spacing;                 ///< smallest lattice spacing of the body [m]
   std::vector<std::int64_t> ids;  ///< ids of the selected particles
   std::vector<char> anchor;       ///< of every particle of the run: in the anchor region; empty if there is none

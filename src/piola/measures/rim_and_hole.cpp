@@ -50,8 +50,8 @@ struct Gap {
 
   void see_upper(double y) { upper = y >= 0 ? std::min(upper, y) : upper; }
   void see_lower(double y) { lower = y <= 0 ? std::min(lower, -y) : lower; }
-  double width() const {
-    double const sum = upper + lower;
+  double width(bool axisymmetric) const {
+    double const sum = axisymmetric ? 2 * upper : upper + lower;
     return std::isfinite(sum) ? sum : std::numeric_limits<double>::quiet_NaN();
   }
 };
@@ -93,7 +93,7 @@ double slab(Measured const& measured, Cloud const& cloud, Profile const& profile
     if (upper[clusters.of[k]] != 0) gap.see_upper(profile.across[k]);
     if (lower[clusters.of[k]] != 0) gap.see_lower(profile.across[k]);
   }
-  return gap.width();
+  return gap.width(measured.axisymmetric);
 }
 
 double cavity(Measured const& measured, Profile const& profile) {
@@ -107,7 +107,7 @@ double cavity(Measured const& measured, Profile const& profile) {
     gap.see_lower(profile.across[k]);
   }
   double widest = std::numeric_limits<double>::quiet_NaN();
-  for (auto const& [bin, gap] : bins) widest = std::fmax(widest, gap.width());
+  for (auto const& [bin, gap] : bins) widest = std::fmax(widest, gap.width(measured.axisymmetric));
   return widest;
 }
 

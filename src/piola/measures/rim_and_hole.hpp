@@ -17,7 +17,8 @@ std::vector<double> rim_values(Measured const& measured, FieldCache& cache);
 /// with a particle of the anchor region; if there is no such region, on each side the cluster with the most particles
 /// there. Then the cavity [m]: the same distance over all particles of the body, in bins along the axis of `bin`
 /// initial spacings from `cavity_from` to `cavity_to`; the largest of the bins with particles on both sides. Particles
-/// on the axis are on both sides. Nan where one side has no particles.
+/// on the axis are on both sides. Nan where one side has no particles. In half sections of axisymmetric bodies both
+/// sides are alike.
 std::vector<double> hole_values(Measured const& measured, FieldCache& cache);
 
 }  // namespace piola

@@ -118,6 +118,21 @@ void check_rigids(CaseSpec const& spec, Problems& problems) {
   }
 }
 
+void check_probes(CaseSpec const& spec, Problems& problems) {
+  for (ProbeSpec const& probe : spec.probes) {
+    if (probe.kind == ProbeKind::twist)
+      problems.add(place_of(probe.places, "kind"),
+                   axisymmetric + "and probe " + in_quotes(probe.name) +
+                       " looks around the axis (allowed: the other kinds) - take point, "
+                       "average or extent");
+    if (probe.kind == ProbeKind::hole && (probe.axis != 1 || probe.at[0] != 0))
+      problems.add(place_of(probe.places, "axis"),
+                   axisymmetric + "and probe " + in_quotes(probe.name) +
+                       " looks for a hole along another line than the axis (allowed: axis = \"y\" and at = [0, ...]) - "
+                       "set both");
+  }
+}
+
 }  // namespace
 
 bool is_in_sections(CaseSpec const& spec) {
@@ -147,12 +162,7 @@ void check_axisymmetry(CaseSpec const& spec, ParticleSet const& particles, Probl
                                                         "and a mirror is normal to the radius (allowed: "
                                                         "normal to y; the axis is one by itself) - remove "
                                                         "it");
-  for (ProbeSpec const& probe : spec.probes)
-    if (probe.kind == ProbeKind::twist)
-      problems.add(place_of(probe.places, "kind"),
-                   axisymmetric + "and probe " + in_quotes(probe.name) +
-                       " looks around the axis (allowed: the other kinds) - take point, "
-                       "average or extent");
+  check_probes(spec, problems);
   for (CrackSpec const& crack : spec.cracks)
     problems.add(place_of(crack.places, ""), axisymmetric + "and there is a crack (allowed: none) - remove it");
 }
