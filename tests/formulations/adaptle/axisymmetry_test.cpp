@@ -333,6 +333,14 @@ TEST(AdaptleAxisymmetry, WhatItCannotRunIsRefusedByName) {
   EXPECT_NE(refusal(b).find("body.formulation.description"), std::string::npos);
   EXPECT_NE(refusal(rings({on_axis()})).find("body.shape.placement"), std::string::npos);
   b = a;
+  ShapeSpec disc = section(0, 1);
+  disc.kind = ShapeSpec::Kind::sphere;
+  disc.centre = {0, 0, 0};
+  disc.radius = 1;
+  disc.spacing = 2.0 / 9;
+  EXPECT_NE(refusal(rings({disc})).find("even number"), std::string::npos);
+  disc.spacing = 2.0 / 10;
+  EXPECT_EQ(refusal(rings({disc})), "");
   b.mirrors.push_back({0, 1, false});
   EXPECT_NE(refusal(b).find("mirror"), std::string::npos);
 }

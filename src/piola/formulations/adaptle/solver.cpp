@@ -32,8 +32,9 @@ void check_axis(Assembly const& assembly, Problems& problems) {
     for (auto id = body.first; turns && id < body.last; ++id) {
       if (assembly.particles.X[at(id)][0] > 1e-3 * body.spacing[0]) continue;
       problems.add({}, fmt::format("adaptle: geometry is \"axisymmetric\", and body \"{}\" has particles on the axis "
-                                   "that may turn Eulerian (allowed: body.shape.placement = \"cell_centred\", half a "
-                                   "spacing beside it) - change the placement",
+                                   "that may turn Eulerian (allowed: half a spacing beside it) - give a box "
+                                   "body.shape.placement = \"cell_centred\", a disc a body.shape.spacing that divides "
+                                   "its diameter by an even number",
                                    body.name));
       break;
     }
