@@ -16,7 +16,7 @@ class EnergyTotals {
   static auto listed(Self& b) {
     return std::tie(b.contact_energy, b.viscous_loss, b.external_work, b.converted, b.by_guard, b.converted_mass,
                     b.energy_change, b.momentum_change, b.deleted, b.overlap, b.time, b.next_dt, b.damping_loss,
-                    b.hourglass_energy, b.artificial_work);
+                    b.hourglass_energy, b.artificial_work, b.axis_crossings);
   }
 
  public:
@@ -24,6 +24,7 @@ class EnergyTotals {
   double converted = 0, by_guard = 0, converted_mass = 0, energy_change = 0, momentum_change = 0, deleted = 0;
   double overlap = 0;
   double time = 0, next_dt = 0, damping_loss = 0, hourglass_energy = 0;
+  double axis_crossings = 0;
   double artificial_work = 0;  ///< energy that artificial stress takes from motion, of either sign
 
   /// Adds the powers of a step of dt [s], and takes over its stable step.
@@ -34,6 +35,7 @@ class EnergyTotals {
     artificial_work += dt * m.artificial_power;
     external_work += dt * (m.held_power + m.load_power + m.rigid_power);
     overlap = std::max(overlap, m.overlap);
+    axis_crossings += static_cast<double>(m.axis_crossings);
     next_dt = m.dt;
   }
 

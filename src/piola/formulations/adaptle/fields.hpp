@@ -80,6 +80,9 @@ struct Fields {
   /// Von Mises stress at the end of the last plastic step; 0: the next prediction evaluates the law.
   ParticleField flow{owner, "FlowStress", "Pa", 1, Role::evolved};
 
+  /// 1: the ring has crossed the axis in the first half of the step, and was turned back.
+  ParticleField turned{owner, "TurnedBack", "1", 1, Role::derived, has.axisymmetric};
+
   // Half time.
   ParticleField v_half{owner, "VelocityOfHalfTime", "m/s", 3, Role::derived};
   ParticleField S_half{owner, "StressDeviatorOfHalfTime", "Pa", 6, Role::derived};

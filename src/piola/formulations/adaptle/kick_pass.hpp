@@ -8,7 +8,7 @@ namespace piola::adaptle::inline PIOLA_BACKEND {
 /// Sums and extrema over the particles of a block: their order in System::partial.
 struct BlockMeasures {
   static constexpr int contact = 0, hourglass = 1, rigid = 2, held = 3, load = 4, viscous = 5, artificial = 6, sums = 7,
-                       dt = 7, overlap = 8, conversion_requests = 9, size = 10;
+                       dt = 7, overlap = 8, conversion_requests = 9, axis_crossings = 10, size = 11;
 };
 
 /// Data of the particles of a block that the parts of the end of a step share.
@@ -36,7 +36,7 @@ struct Kick {
   double dt;
   System s;  ///< optional data: results of spatial sums, supports, loads
   MaterialTable material;
-  Components X, mass, force, heat, compression, phi, F, F_rate, v_half, S_half, pressure, rho_half;
+  Components X, mass, force, heat, compression, phi, F, F_rate, v_half, S_half, pressure, rho_half, turned;
   OwnComponents x, v, a;
 
   PIOLA_SHARED_FN Kick(System const& system, MaterialTable const& table, double step)
@@ -55,6 +55,7 @@ struct Kick {
         S_half(read(s.field.S_half)),
         pressure(read(s.field.pressure)),
         rho_half(read(s.field.rho_half)),
+        turned(read(s.field.turned)),
         x(write(s.field.x)),
         v(write(s.field.v)),
         a(write(s.field.a)) {}
@@ -98,7 +99,7 @@ struct Kick {
       v.put(g, end, c);
       x.add(g, 0.5 * dt * end, c);
     }
-    if (s.settings.axisymmetric) turn_back(g);
+    if (s.settings.axisymmetric) turn_back(g, m);
   }
 
   /// Radial acceleration by the hoop stress, inwards: that of V sigma_33 / r.
@@ -107,9 +108,11 @@ struct Kick {
     return stress / (rho_half.scalar<Lanes>(i) * radius_at(i));
   }
 
-  /// Turns particles beyond the axis, with the radial velocity.
-  PIOLA_FN void turn_back(Group g) const {
+  /// Turns particles beyond the axis, with the radial velocity, and counts those of the whole step.
+  PIOLA_FN void turn_back(Group g, double* m) const {
     auto const beyond = x.seen().scalar<Lanes>(g.first) < 0.0;
+    Lanes const now = select(beyond, Lanes(1.0), Lanes(0.0));
+    for (int l = 0; l < g.count; ++l) m[BlockMeasures::axis_crossings] += lane(now, l) + turned.at(g.first + l);
     if (!any(g.mask() && beyond)) return;
     for (OwnComponents const* field : {&x, &v, &a}) {
       Lanes const value = field->seen().scalar<Lanes>(g.first);

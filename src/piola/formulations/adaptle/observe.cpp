@@ -173,6 +173,7 @@ Diagnostics observe(Particles const& particles, ParticleSet const& set) {
             {"failed_particles", sums.others.value(2)},
             {"deleted_particles", energy_totals.deleted},
             {"contact_overlap", energy_totals.overlap},
+            {"axis_crossings", energy_totals.axis_crossings},
             {"temperature_max", sums.hottest}};
   return d;
 }

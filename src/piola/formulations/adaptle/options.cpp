@@ -139,6 +139,7 @@ constexpr std::array diagnostics{DiagnosticInfo{"internal_energy", "J"},
                                  DiagnosticInfo{"failed_particles", "1"},
                                  DiagnosticInfo{"deleted_particles", "1"},
                                  DiagnosticInfo{"contact_overlap", "1"},
+                                 DiagnosticInfo{"axis_crossings", "1"},
                                  DiagnosticInfo{"temperature_max", "K"}};
 
 std::string_view word(FormulationSpec const& spec, std::string_view name) { return word_of(spec, choices, name); }

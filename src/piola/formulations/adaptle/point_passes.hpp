@@ -18,7 +18,7 @@ struct Drift {
   bool axisymmetric;
   double smallest_radius;
   Components X, weight, a, viscosity, phi, active, thickness, thickness_rate;
-  OwnComponents x, v, v_half, thickness_half, force, heat, hourglass, compression, contact;
+  OwnComponents x, v, v_half, thickness_half, force, heat, hourglass, compression, contact, turned;
   double* position;
   MaterialTable material;
   EquationSet equations;
@@ -45,6 +45,7 @@ struct Drift {
         hourglass(write(s.field.hourglass)),
         compression(write(s.field.compression)),
         contact(write(s.field.contact)),
+        turned(write(s.field.turned)),
         position(s.position),
         material(table),
         equations(s.settings.equations),
@@ -82,6 +83,7 @@ struct Drift {
   /// Turns particles beyond the axis, with the radial velocity.
   PIOLA_FN void turn_back(Group g, Lanes& radius, Lanes& speed, double (&radii)[lane_count]) const {
     auto const beyond = radius < 0.0;
+    turned.put(g, select(beyond, Lanes(1.0), Lanes(0.0)));
     if (!any(g.mask() && beyond)) return;
     Lanes const before = v.seen().scalar<Lanes>(g.first);
     radius = select(beyond, -radius, radius);

@@ -223,6 +223,7 @@ struct StepSums {
          artificial_power = 0;  ///< [W]
   double overlap = 0;
   Index conversion_requests = 0;    ///< number of particles to convert or to delete
+  Index axis_crossings = 0;         ///< number of times that a ring was turned back at the axis
   bool neighbour_overflow = false;  ///< whether a particle has more neighbours than can be listed
 };
 

@@ -207,6 +207,7 @@ struct Step {
       to.m.dt = from.m.dt < to.m.dt ? from.m.dt : to.m.dt;
       to.m.overlap = from.m.overlap > to.m.overlap ? from.m.overlap : to.m.overlap;
       to.m.conversion_requests += from.m.conversion_requests;
+      to.m.axis_crossings += from.m.axis_crossings;
       to.m.neighbour_overflow = to.m.neighbour_overflow || from.m.neighbour_overflow;
     });
     m = said.m;
@@ -222,6 +223,7 @@ struct Step {
       m.dt = p[B::dt] < m.dt ? p[B::dt] : m.dt;
       m.overlap = p[B::overlap] > m.overlap ? p[B::overlap] : m.overlap;
       m.conversion_requests += static_cast<Index>(p[B::conversion_requests]);
+      m.axis_crossings += static_cast<Index>(p[B::axis_crossings]);
     }
   }
 };
