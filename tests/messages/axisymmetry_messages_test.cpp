@@ -55,6 +55,21 @@ TEST(AxisymmetryMessages, FormulationsAndTheirAssumptions) {
   expect_answer({.formulation = "name = \"nodal\", pressure = \"implicit\""}, {"pressure", "explicit"});
 }
 
+TEST(AxisymmetryMessages, HolesAlongAnotherLineThanTheAxis) {
+  std::string const probe = "[[probe]]\nname = \"p\"\nbody = \"bar\"\nkind = \"hole\"\nslab_from = 0\nslab_to = 1\n";
+  EXPECT_EQ(answer_to({.more = probe + "at = [0, 1]\naxis = \"y\"\n"}), "");
+  expect_answer({.more = probe + "at = [0, 1]\naxis = \"x\"\n"}, {"\"p\"", "axis = \"y\"", "at = [0, ...]"});
+  expect_answer({.more = probe + "at = [1, 1]\naxis = \"y\"\n"}, {"\"p\"", "axis = \"y\"", "at = [0, ...]"});
+}
+
+TEST(AxisymmetryMessages, ShapesThatCannotBeReadHideNoDimension) {
+  std::string const answer =
+      answer_to({.shape = "bax = { min = [0, 0], max = [1, 2] }, spacing = 0.25",
+                 .more = "[[support]]\nbody = \"bar\"\nwhere = \"X > 0.9\"\nfix = \"y\"\nvelocity = [0, 1]\n"});
+  EXPECT_NE(answer.find("bax"), std::string::npos);
+  EXPECT_EQ(answer.find("a list of"), std::string::npos) << answer;
+}
+
 TEST(AxisymmetryMessages, MotionAndLoadsAcrossTheAxis) {
   expect_answer({.of_body = "initial_velocity = [\"1\", \"0\"]"},
                 {"initial_velocity[0]", "1 m/s", "on the axis", "multiply it by X"});

@@ -80,9 +80,10 @@ std::optional<std::string> definition_text(Value const& value, Names const& name
 std::optional<std::array<Expression, 9>> read_gradient(Section const& section, BodyNames const& body) {
   auto const value = section.find("initial_deformation_gradient");
   if (!value) return std::nullopt;
-  auto const count = static_cast<std::size_t>(body.dimension);
-  auto const rows = read_list(*value, count, count, section.problems());
+  auto const [least, most] = directions_of(body);
+  auto const rows = read_list(*value, least, most, section.problems());
   if (!rows) return std::nullopt;
+  std::size_t const count = rows->size();
   std::array<Expression, 9> F;
   for (std::size_t i = 0; i < 3; ++i) F[4 * i] = Expression("1");
   for (std::size_t i = 0; i < count; ++i) {
@@ -152,6 +153,7 @@ BodySpec read_body(Section const& section, Names const& common, CaseLibrary cons
   if (auto const material = section.table("material")) read_material(*material, library, body);
   names.name = body.name;
   names.dimension = body.shape.dimension;
+  names.readable = usable;
   names.shape = body.shape;
   if (auto const define = section.find("define")) {
     names.names.definitions = read_definitions(*define, names.names, section.problems());

@@ -21,7 +21,13 @@ BodyNames const* find_body(Section const& section, std::vector<BodyNames> const&
 
 std::optional<std::vector<Expression>> read_formulas(Value const& value, std::string_view unit, std::size_t count,
                                                      Names const& names, Problems& problems) {
-  auto const items = read_list(value, count, count, problems);
+  return read_formulas(value, unit, {count, count}, names, problems);
+}
+
+std::optional<std::vector<Expression>> read_formulas(Value const& value, std::string_view unit,
+                                                     std::array<std::size_t, 2> counts, Names const& names,
+                                                     Problems& problems) {
+  auto const items = read_list(value, counts[0], counts[1], problems);
   if (!items) return std::nullopt;
   std::vector<Expression> formulas;
   for (Value const& item : *items) {
@@ -31,12 +37,17 @@ std::optional<std::vector<Expression>> read_formulas(Value const& value, std::st
   return formulas;
 }
 
+std::array<std::size_t, 2> directions_of(BodyNames const& body) {
+  if (!body.readable) return {1, 3};
+  auto const dimension = static_cast<std::size_t>(body.dimension);
+  return {dimension, dimension};
+}
+
 std::optional<std::array<Expression, 3>> read_vector(Section const& section, std::string_view key,
                                                      BodyNames const& body) {
   auto const value = section.find(key);
   if (!value) return std::nullopt;
-  auto formulas = read_formulas(*value, section.info_of(key).unit, static_cast<std::size_t>(body.dimension), body.names,
-                                section.problems());
+  auto formulas = read_formulas(*value, section.info_of(key).unit, directions_of(body), body.names, section.problems());
   if (!formulas) return std::nullopt;
   std::array<Expression, 3> vector;
   std::move(formulas->begin(), formulas->end(), vector.begin());

@@ -24,6 +24,7 @@ struct BodyNames {
   bool axisymmetric = false;
   ShapeSpec shape;
   Names names;
+  bool readable = true;  ///< whether the shape could be read, which gives the dimension
 };
 
 /// The body that a section names; null (and a problem) if there is none.
@@ -33,6 +34,12 @@ std::optional<std::array<Expression, 3>> read_vector(Section const& section, std
                                                      BodyNames const& body);
 std::optional<std::vector<Expression>> read_formulas(Value const& value, std::string_view unit, std::size_t count,
                                                      Names const& names, Problems& problems);
+/// As above for a list of counts[0] to counts[1] formulas.
+std::optional<std::vector<Expression>> read_formulas(Value const& value, std::string_view unit,
+                                                     std::array<std::size_t, 2> counts, Names const& names,
+                                                     Problems& problems);
+/// Numbers of directions that a list may have, least and most: any if the shape of the body could not be read.
+std::array<std::size_t, 2> directions_of(BodyNames const& body);
 /// Reads a point with as many components as the body has. The target of a missing or wrong one stays as it is.
 bool read_components(Section const& section, std::string_view key, int dimension, std::array<double, 3>& target);
 /// As read_components(), normalised to a unit vector.
