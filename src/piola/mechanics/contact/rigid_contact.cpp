@@ -14,7 +14,7 @@ double layer_stiffness(ContactModel const& model, Index point, std::size_t rigid
 }
 
 /// Part of the area of a point that counts, by the cosine between its normal and the inward one of a shape. Points of a
-/// side face that meets a plane at a right angle do not count; beside a slope the part is near the projected area.
+/// side face at a right angle to a plane do not count; beside a slope the part is near the projected area.
 struct Facing {
   double part, slope;
 };
