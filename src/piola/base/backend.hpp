@@ -16,11 +16,11 @@
 
 /// PIOLA_FN: a function for all back ends. PIOLA_INLINE_FN: one that loops call per particle or per pair, which a back
 /// end always inlines. g++ 12 reaches its limits of growth in these files, and calls pass tensors of lanes through
-/// memory: jst_sph with AVX2 ran at 0.8 of its rate. PIOLA_SHARED_FN: one that loops call once per block, or steps once
+/// memory: jst_sph with AVX2 ran at 0.8 of its rate. PIOLA_SHARED: one that loops call once per block, or steps once
 /// per body, which is never inlined: it is compiled once, and not once for each law of its callers.
 #if defined(__CUDACC__)
 #define PIOLA_FN __host__ __device__ inline
 #else
 #define PIOLA_FN inline
 #endif
-#define PIOLA_SHARED_FN __attribute__((noinline)) PIOLA_FN
+#define PIOLA_SHARED __attribute__((noinline))

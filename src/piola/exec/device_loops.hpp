@@ -144,7 +144,7 @@ PointPass erased(Pass const& pass) {
 #if !defined(__CUDACC__)
 /// sweep(i, scratch) for the lanes of a block, then `then` for the same block: see Fused.
 template <class Sweep>
-PIOLA_SHARED_FN void for_each_then(Range r, Sweep const& sweep, PointPass const& then) {
+PIOLA_SHARED inline void for_each_then(Range r, Sweep const& sweep, PointPass const& then) {
   for_each_block(r, Fused<Sweep>{sweep, then});
 }
 #endif

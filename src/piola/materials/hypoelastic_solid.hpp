@@ -71,7 +71,7 @@ class Solid {
   bool damages;           ///< whether damage grows, or spall is a failure
   Scatter scatter;        ///< of the failure strength of particles
 
-  PIOLA_SHARED_FN explicit Solid(MaterialParameters const& material)
+  PIOLA_SHARED inline explicit Solid(MaterialParameters const& material)
       : Solid(ElasticConstants(material.value), material,
               Heat(Strength::yields ? material.value + Layout::heat : nullptr)) {}
 

@@ -45,8 +45,8 @@ struct StepEnd {
   std::int8_t* conversion_request;
   FailureSlot* failure;
 
-  PIOLA_SHARED_FN StepEnd(System const& s, BodyConstants const& of, MaterialTable const& table, bool law_damages,
-                          double step)
+  PIOLA_SHARED inline StepEnd(System const& s, BodyConstants const& of, MaterialTable const& table, bool law_damages,
+                              double step)
       : body(of),
         settings(s.settings),
         damages(law_damages),
@@ -77,7 +77,7 @@ struct StepEnd {
         conversion_request(s.description.request),
         failure(s.failure) {}
 
-  PIOLA_SHARED_FN void operator()(Range block, BlockScratch const& scratch, double* m) const {
+  PIOLA_SHARED PIOLA_FN void operator()(Range block, BlockScratch const& scratch, double* m) const {
     Lanes least(1e300), overlap(0.0), sums[BlockMeasures::sums];
     for (Lanes& sum : sums) sum = Lanes(0.0);
     each_group(block, [&](Group g) {
@@ -223,7 +223,7 @@ struct FinishStress {
   double release_rate;  ///< see release [1/s]; 0: failed particles keep their stress
   OwnComponents S, S_rate, plastic_strain, temperature, damage, plastic_work, bulking, released, flow;
 
-  PIOLA_SHARED_FN FinishStress(Law const& of_body, System const& s, BodyConstants const& body, double step)
+  PIOLA_SHARED inline FinishStress(Law const& of_body, System const& s, BodyConstants const& body, double step)
       : law(of_body),
         dt(step),
         balance(s, body, step),

@@ -19,7 +19,7 @@ struct WriteRecords {
   SpatialTable spatial;    ///< records null: not needed
   MaterialTable material;  ///< records null: not needed
 
-  PIOLA_SHARED_FN WriteRecords(System const& s, BodyConstants const& of, MaterialTable const& table, double dt)
+  PIOLA_SHARED inline WriteRecords(System const& s, BodyConstants const& of, MaterialTable const& table, double dt)
       : body(of),
         settings(s.settings),
         half(s, of, table, dt),
@@ -43,7 +43,7 @@ struct WriteRecords {
         spatial(s.spatial),
         material(table) {}
 
-  PIOLA_SHARED_FN void operator()(Range block) const {
+  PIOLA_SHARED PIOLA_FN void operator()(Range block) const {
     each_group(block, [&](Group g) {
       Index const i = g.first;
       Lanes const p = pressure.scalar<Lanes>(i);
@@ -212,7 +212,7 @@ struct HalfStress {
   Components mass, rho_half, energy, energy_rate;
   OwnComponents pressure, c, S_half;
 
-  PIOLA_SHARED_FN HalfStress(Law const& of_body, System const& s, double dt)
+  PIOLA_SHARED inline HalfStress(Law const& of_body, System const& s, double dt)
       : law(of_body),
         step(0.5 * dt),
         point(s.field, s.own),

@@ -39,7 +39,7 @@ struct Kick {
   Components X, mass, force, heat, compression, phi, F, F_rate, v_half, S_half, pressure, rho_half, turned;
   OwnComponents x, v, a;
 
-  PIOLA_SHARED_FN Kick(System const& system, MaterialTable const& table, double step)
+  PIOLA_SHARED inline Kick(System const& system, MaterialTable const& table, double step)
       : dt(step),
         s(system),
         material(table),
@@ -60,7 +60,7 @@ struct Kick {
         v(write(s.field.v)),
         a(write(s.field.a)) {}
 
-  PIOLA_SHARED_FN void operator()(Range block, BlockScratch& scratch, double* m) const {
+  PIOLA_SHARED PIOLA_FN void operator()(Range block, BlockScratch& scratch, double* m) const {
     using R = SpatialResult;
     each_group(block, [&](Group g) {
       Lanes spatial[R::stride];
@@ -202,7 +202,7 @@ struct Balance {
   Components x, mass, phi, active, S_half, pressure, rho_half, volume_half, thickness_half;
   OwnComponents rho, rho_rate, thickness, thickness_rate, energy, energy_rate;
 
-  PIOLA_SHARED_FN Balance(System const& s, BodyConstants const& body, double step)
+  PIOLA_SHARED inline Balance(System const& s, BodyConstants const& body, double step)
       : settings(s.settings),
         dt(step),
         filled(s, body),
@@ -222,7 +222,7 @@ struct Balance {
         energy(write(s.field.energy)),
         energy_rate(write(s.field.energy_rate)) {}
 
-  PIOLA_SHARED_FN void operator()(Range block, BlockScratch const& scratch) const {
+  PIOLA_SHARED PIOLA_FN void operator()(Range block, BlockScratch const& scratch) const {
     each_group(block, [&](Group g) {
       Index const i = g.first;
       Mat<3, Lanes> const L = scratch.gradient(g);

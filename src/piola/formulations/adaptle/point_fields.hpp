@@ -11,7 +11,7 @@ struct PointFields {
   Components S, plastic_strain, temperature, damage, plastic_work, bulking, active, released;
   LawFactors own;
 
-  PIOLA_SHARED_FN PointFields(Fields const& f, LawFactors const& factors)
+  PIOLA_SHARED inline PointFields(Fields const& f, LawFactors const& factors)
       : S(read(f.S)),
         plastic_strain(read(f.plastic_strain)),
         temperature(read(f.temperature)),

@@ -24,7 +24,7 @@ struct Drift {
   EquationSet equations;
   FailureSlot* failure;
 
-  PIOLA_SHARED_FN Drift(System const& s, MaterialTable const& table, double step)
+  PIOLA_SHARED inline Drift(System const& s, MaterialTable const& table, double step)
       : dt(step),
         axisymmetric(s.settings.axisymmetric),
         smallest_radius(s.smallest_radius),
@@ -51,7 +51,7 @@ struct Drift {
         equations(s.settings.equations),
         failure(s.failure) {}
 
-  PIOLA_SHARED_FN void operator()(Range block) const {
+  PIOLA_SHARED PIOLA_FN void operator()(Range block) const {
     each_group(block, [&](Group g) { move(g); });
   }
 
@@ -162,7 +162,7 @@ struct PredictStress {
   Components S_rate, flow;
   OwnComponents S_half;
 
-  PIOLA_SHARED_FN PredictStress(Law const& of_body, System const& s, double step)
+  PIOLA_SHARED inline PredictStress(Law const& of_body, System const& s, double step)
       : law(of_body),
         dt(step),
         point(s.field, s.own),
@@ -204,7 +204,7 @@ struct HalfVolume {
   OwnComponents rho_half, volume_half;
   FailureSlot* failure;
 
-  PIOLA_SHARED_FN HalfVolume(System const& s, BodyConstants const& body, MaterialTable const& table, double dt)
+  PIOLA_SHARED inline HalfVolume(System const& s, BodyConstants const& body, MaterialTable const& table, double dt)
       : rho0(body.rho0),
         step(0.5 * dt),
         material(table),
@@ -220,7 +220,7 @@ struct HalfVolume {
 
   PIOLA_FN Lanes thickness_at(Index i) const { return thickness_half.scalar_or<Lanes>(i, 1.0); }
 
-  PIOLA_SHARED_FN void operator()(Range block) const {
+  PIOLA_SHARED PIOLA_FN void operator()(Range block) const {
     each_group(block, [&](Group g) {
       Index const i = g.first;
       Lanes const blend = phi.scalar<Lanes>(i);

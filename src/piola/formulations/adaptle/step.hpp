@@ -92,16 +92,16 @@ struct Step {
 
  private:
   /// Parts of a step for one body, by what its law does.
-  PIOLA_SHARED_FN void predict(int b, double dt, LawPart<> const& stress) const {
+  PIOLA_SHARED inline void predict(int b, double dt, LawPart<> const& stress) const {
     exec::for_each_block(body_range(b), Predict<D, LawPart<>>{Drift<D>(s, material_of(b), dt), stress});
   }
   template <bool Corrected>
-  PIOLA_SHARED_FN void half_state(int b, double dt, LawPart<> const& stress) const {
+  PIOLA_SHARED inline void half_state(int b, double dt, LawPart<> const& stress) const {
     exec::for_each_block(body_range(b), HalfState<D, Corrected, LawPart<>>{
                                             HalfVolume(s, s.body[b], material_of(b), dt), stress,
                                             WriteRecords<D, Corrected>(s, s.body[b], material_of(b), dt)});
   }
-  PIOLA_SHARED_FN void finish(int b, double dt, bool damages, LawPart<BlockScratch> const& stress) const {
+  PIOLA_SHARED inline void finish(int b, double dt, bool damages, LawPart<BlockScratch> const& stress) const {
     exec::for_each_block(body_range(b), Finish<D, LawPart<BlockScratch>>{
                                             Kick<D>(s, material_of(b), dt), stress,
                                             StepEnd<D>(s, s.body[b], material_of(b), damages, dt), s.partial});
@@ -215,7 +215,8 @@ struct Step {
     said.first.put(*s.failure);
   }
 
-  PIOLA_SHARED_FN void add_blocks(Index blocks, StepSums& m, exec::ReproducibleSums<BlockMeasures::sums>& sums) const {
+  PIOLA_SHARED inline void add_blocks(Index blocks, StepSums& m,
+                                      exec::ReproducibleSums<BlockMeasures::sums>& sums) const {
     using B = BlockMeasures;
     for (Index k = 0; k < blocks; ++k) {
       double const* p = s.partial + static_cast<std::ptrdiff_t>(k) * B::size;

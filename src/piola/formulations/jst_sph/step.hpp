@@ -51,7 +51,7 @@ class Step {
   }
 
   /// The first sweep, with the pass that uses its sums.
-  PIOLA_SHARED_FN void sweep_then(int smoothed, exec::PointPass const& then) const {
+  PIOLA_SHARED inline void sweep_then(int smoothed, exec::PointPass const& then) const {
     if (smoothed == 0)
       exec::for_each_then(b_.slots, first_sweep<0>(), then);
     else if (smoothed == D)

@@ -29,8 +29,8 @@ class SolidCells {
 
   /// For the particles of a material, dt [s] after the last step. `law` must outlive this.
   template <class Law>
-  PIOLA_SHARED_FN SolidCells(Law const& law, MaterialRange const& range, BodyState const& body, double dt,
-                             Wanted wanted)
+  PIOLA_SHARED inline SolidCells(Law const& law, MaterialRange const& range, BodyState const& body, double dt,
+                                 Wanted wanted)
       : law_(&law),
         update_(&update<Law>),
         pressure_(&pressure<Law>),

@@ -93,7 +93,7 @@ class Step {
     return {b_.list, read_neighbours(b_.motion_for_neighbours).data, read_neighbours(b_.stress_for_neighbours).data};
   }
 
-  PIOLA_SHARED_FN StressResultants<D> resultants() const {
+  PIOLA_SHARED inline StressResultants<D> resultants() const {
     return {b_.particles,
             read_reference(b_.V),
             read_reference(b_.L),
@@ -105,7 +105,7 @@ class Step {
   }
 
   /// The first sweep, block by block, with the pass that uses its sums.
-  PIOLA_SHARED_FN void fused(Range slots, exec::PointPass const& then) {
+  PIOLA_SHARED inline void fused(Range slots, exec::PointPass const& then) {
     if (on_lattice())
       exec::for_each_then(
           slots, SumLatticeMotion<D>(LatticeSums<D>{b_.lattice, read_neighbours(b_.motion_for_neighbours), {}}), then);
@@ -177,7 +177,7 @@ class Step {
   }
 
   template <bool Observed, class Law>
-  PIOLA_SHARED_FN void update_stress(Law const& law, Constants const& constants, Range slots, double dt) {
+  PIOLA_SHARED inline void update_stress(Law const& law, Constants const& constants, Range slots, double dt) {
     UpdateStress<D, Law, Observed> const update{law,
                                                 constants,
                                                 resultants(),
