@@ -202,14 +202,21 @@ double force_of_uniform_pressure(Cloud const& cloud) {
   return worst;
 }
 
+/// Both forms of viscosity, with particles beside the axis and on it.
+std::vector<std::pair<std::string, ShapeSpec>> forms_and_sections() {
+  return {{"central", section(0, 1)}, {"published", section(0, 1)}, {"central", on_axis()}, {"published", on_axis()}};
+}
+
+Assembly total_lagrangian_rings(std::string const& form, ShapeSpec const& shape) {
+  Assembly a = rings({shape});
+  choose(a, "description", "total_lagrangian");
+  choose(a, "viscosity_form", form);
+  return a;
+}
+
 TEST(AdaptleAxisymmetry, UniformPressureLeavesNoForceNearTheAxis) {
-  for (auto const& [form, shape] : {std::pair{"central", section(0, 1)},
-                                    {"published", section(0, 1)},
-                                    {"central", on_axis()},
-                                    {"published", on_axis()}}) {
-    Assembly a = rings({shape});
-    choose(a, "description", "total_lagrangian");
-    choose(a, "viscosity_form", form);
+  for (auto const& [form, shape] : forms_and_sections()) {
+    Assembly a = total_lagrangian_rings(form, shape);
     displace(a, [](Point const& X) { return Point{-0.01 * X[0], -0.01 * X[1], 0}; });
     Cloud cloud(a);
     cloud.evaluate();
@@ -243,13 +250,8 @@ std::array<double, 2> spread_of_axial_acceleration(Cloud const& cloud) {
 }
 
 TEST(AdaptleAxisymmetry, APressureThatGrowsAlongTheAxisAcceleratesAllRingsAlike) {
-  for (auto const& [form, shape] : {std::pair{"central", section(0, 1)},
-                                    {"published", section(0, 1)},
-                                    {"central", on_axis()},
-                                    {"published", on_axis()}}) {
-    Assembly a = rings({shape});
-    choose(a, "description", "total_lagrangian");
-    choose(a, "viscosity_form", form);
+  for (auto const& [form, shape] : forms_and_sections()) {
+    Assembly a = total_lagrangian_rings(form, shape);
     displace(a, [](Point const& X) { return Point{0, -1e-3 * X[1] * X[1], 0}; });
     Cloud cloud(a);
     cloud.evaluate();

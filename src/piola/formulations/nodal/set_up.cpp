@@ -166,7 +166,8 @@ Reference make(SetUp const& from) {
   check_surface(from, scaled, r.checks);
   r.parts = load_integrals<D>(from, fits, surface, {scaled.h, r.checks});
   for (auto& parts : r.parts) parts.resize(std::min(parts.size(), scaled.particles));
-  if (from.contact) r.face_areas = face_areas<D>(from, surface, scaled.h);
+  bool const is_box = !from.body.outline.inside;
+  if (from.contact && is_box) r.face_areas = face_areas<D>(from, surface, scaled.h);
   r.held = constrained_facets<D>(from, fits, scaled.patches, scaled.h);
   r.costs.gradients = since(clock);
   GradientTables<D>(from, scaled, fits, fluxes, r)(mass, fits.usual() ? shape : std::nullopt);
