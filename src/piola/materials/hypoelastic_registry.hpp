@@ -51,6 +51,7 @@ struct SolidLaw {
     if (Strength::yields) append(JohnsonCookDamage::parameters);
     append(std::array{Parameter{"spall_pressure", "Pa", "spall strength: largest tension the material carries",
                                 positive, unbounded, "no limit"}});
+    if (!Strength::brittle) append(Fracture::parameters);
     if (Strength::yields) append(Scatter::parameters);
     return all;
   }
@@ -105,6 +106,13 @@ inline bool has_thermal_pressure(MaterialParameters const& material) {
   bool thermal = false;
   with_solid(material, [&](auto const& law) { thermal = law.pressure(law.rho0, heat) > law.pressure(law.rho0, 0); });
   return thermal;
+}
+
+/// Whether the material fails: by damage, spall or cracks.
+inline bool fails(MaterialParameters const& material) {
+  bool any = false;
+  with_solid(material, [&](auto const& law) { any = law.damages || law.fracture.strength < unbounded; });
+  return any;
 }
 
 /// Calls f(law) with the law of `material`, hyperelastic or a solid in rate form: for their common members.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/materials/damage/fracture.hpp"
 #include "piola/materials/damage/johnson_cook.hpp"
 #include "piola/materials/damage/scatter.hpp"
 #include "piola/materials/elastic_constants.hpp"
@@ -31,7 +32,7 @@ struct SolidHistoryOf {
 using SolidHistory = SolidHistoryOf<double>;
 
 /// Offsets of the parameters of a solid with this strength in MaterialParameters::value: elastic constants, strength,
-/// heat, equations of state, damage, spall, scatter.
+/// heat, equations of state, damage, spall, fracture, scatter.
 template <class Strength>
 struct SolidLayout {
   static constexpr int strength = static_cast<int>(ElasticConstants::parameters.size());
@@ -39,7 +40,8 @@ struct SolidLayout {
   static constexpr int eos = heat + (Strength::yields ? Heat::size : 0);
   static constexpr int damage = eos + static_cast<int>(eos_parameters.size());
   static constexpr int spall = damage + (Strength::yields ? static_cast<int>(JohnsonCookDamage::parameters.size()) : 0);
-  static constexpr int scatter = spall + 1;
+  static constexpr int fracture = spall + 1;
+  static constexpr int scatter = fracture + (Strength::brittle ? 0 : Fracture::size);
   static constexpr int size = scatter + (Strength::yields ? Scatter::size : 0);
   static constexpr int eos_word = 0, damage_word = 1, spall_word = 2;
 };
@@ -69,7 +71,8 @@ class Solid {
   double kappa;           ///< bulk modulus at rest, of the equation of state [Pa]
   double spall_pressure;  ///< largest tension [Pa]; infinity: no limit
   bool damages;           ///< whether damage grows, or spall is a failure
-  Scatter scatter;        ///< of the failure strength of particles
+  Fracture fracture;
+  Scatter scatter;  ///< of the failure strength of particles
 
   PIOLA_SHARED inline explicit Solid(MaterialParameters const& material)
       : Solid(ElasticConstants(material.value), material,
@@ -200,7 +203,7 @@ class Solid {
   }
 
  private:
-  static constexpr double none[Scatter::size] = {unbounded, 0, 1};
+  static constexpr double none[Scatter::size] = {unbounded, 0, 1}, no_fracture[Fracture::size] = {unbounded, 0, 0};
 
   Solid(ElasticConstants const& elastic, MaterialParameters const& m, Heat const& heat)
       : rho0(elastic.rho0),
@@ -208,6 +211,7 @@ class Solid {
         kappa(0),
         spall_pressure(m.value[Layout::spall]),
         damages(false),
+        fracture(Strength::brittle ? no_fracture : m.value + Layout::fracture),
         scatter(Strength::yields ? m.value + Layout::scatter : none),
         wears_(Strength::brittle || (Strength::yields && m.word[Layout::damage_word] > 0)),
         spall_(Strength::yields ? m.word[Layout::spall_word] : 0),
@@ -307,9 +311,9 @@ class Solid {
                                    rho / rho0 - 1, kappa, mu);
     } else {
       double const least = 1e-12 * mu;  // molten: no von Mises stress
-      double const fracture =
+      double const fracture_strain =
           damage_.fracture_strain(-before.pressure / (flow > least ? flow : least), rate, h.temperature);
-      h.damage = JohnsonCookDamage::grown(h.damage, strain, h.toughness * fracture);
+      h.damage = JohnsonCookDamage::grown(h.damage, strain, h.toughness * fracture_strain);
     }
   }
   template <class V>

@@ -44,12 +44,13 @@ inline std::vector<Cloud> clouds(std::vector<double> const& jitters = {0.4}, std
 
 /// Reference data of the first body of an assembly, with the particles and the slot order that they refer to.
 struct SetUpBody {
-  explicit SetUpBody(Assembly const& a, double least_mass = 0.3)
-      : set(a.particles),
-        order(nodal::slot_order(set, set.bodies[0])),
-        densities(densities_of(a)),
-        reference(nodal::make_reference({set, set.bodies[0], order, a.loads, a.supports, densities, least_mass,
-                                         *nodal::find_backend(a.backend.c_str())})) {}
+  /// failure: cells may fail.
+  explicit SetUpBody(Assembly const& a, double least_mass = 0.3, bool failure = false)
+      : set(a.particles), order(nodal::slot_order(set, set.bodies[0])), densities(densities_of(a)) {
+    nodal::make_reference({set, set.bodies[0], order, a.loads, a.supports, densities, least_mass,
+                           *nodal::find_backend(a.backend.c_str()), nullptr, std::nullopt, false, failure},
+                          reference);
+  }
   static Values densities_of(Assembly const& a) {
     Values densities;
     for (MaterialParameters const& m : materials_of(a, 0)) densities.push_back(m.value[0]);

@@ -286,6 +286,16 @@ void check_body(BodyOptions const& o, Settings const& s, std::string const& name
     refuse("viscosity = \"riemann\" needs description = \"eulerian\" and no correction = \"mixed\" - change them");
 }
 
+/// Refuses a material whose cracks have a toughness, which only nodal knows.
+void check_fracture(MaterialParameters const& material, std::string const& name, Problems& problems) {
+  with_solid(material, [&](auto const& law) {
+    if (law.fracture.strength < unbounded || law.fracture.energy > 0 || law.fracture.displacement > 0)
+      problems.add({}, "body \"" + name +
+                           "\": material.tensile_strength, fracture_energy and fracture_displacement have no effect in "
+                           "adaptle (allowed here: damage, spall) - leave them out, or take the formulation nodal");
+  });
+}
+
 /// Refuses what axisymmetric bodies cannot have.
 void check_axisymmetric(Assembly const& assembly, Options const& o, Problems& problems) {
   if (!assembly.particles.axisymmetric) return;
@@ -348,6 +358,7 @@ Options read_options(Assembly const& assembly) {
   for (std::size_t b = 0; b < assembly.formulations.size(); ++b) {
     o.bodies.push_back(read_body(assembly.formulations[b], dimension, springs, yields(assembly.materials[b])));
     check_body(o.bodies.back(), o.settings, assembly.particles.bodies[b].name, problems);
+    check_fracture(assembly.materials[b], assembly.particles.bodies[b].name, problems);
   }
   check_one_kernel(assembly, o.bodies, problems);
   check_axisymmetric(assembly, o, problems);

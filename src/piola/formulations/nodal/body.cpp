@@ -74,6 +74,7 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
       state_(&fields_, set.dimension,
              {.viscosity = options.viscous,
               .solids = options.solids,
+              .failure = options.failure,
               .offset = !assembly.initial_deformation_gradient.empty(),
               .implicit_pressure = options.implicit_pressure,
               .axisymmetric = set.axisymmetric}) {
@@ -97,10 +98,11 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
 NodalBody::~NodalBody() = default;
 
 void NodalBody::make_reference(Assembly const& assembly, Backend const& backend) {
-  reference_ =
-      nodal::make_reference({*set_, body_, order_, assembly.loads, assembly.supports, materials_.densities(),
-                             options_.least_mass, backend, images_.empty() ? nullptr : &images_,
-                             comm::is_parallel() ? std::optional(state_.slots) : std::nullopt, assembly.coupled});
+  nodal::make_reference(
+      {*set_, body_, order_, assembly.loads, assembly.supports, materials_.densities(), options_.least_mass, backend,
+       images_.empty() ? nullptr : &images_, comm::is_parallel() ? std::optional(state_.slots) : std::nullopt,
+       assembly.coupled, options_.failure},
+      reference_);
   if (!images_.empty() && !reference_.held.empty())
     throw InputError(fmt::format(
         "body '{}': a support that holds the surface of a patch does not go together with mirror planes, of which the "

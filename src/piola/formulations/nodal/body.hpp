@@ -75,6 +75,11 @@ class NodalBody {
   /// Mean over the points of a cell of one number of their histories (HistoryLayout); 0 for bodies without solids in
   /// rate form.
   double mean_of_points(Index slot, int number) const;
+  bool is_broken(Index slot) const { return failure_value(slot, FailureLayout::condition) > 0; }
+  /// A value of FailureLayout; 0 for bodies whose cells cannot fail.
+  double failure_value(Index slot, int of) const {
+    return state_.has.failure ? value(state_.history, slot, Fields::failure_value(of, state_.dimension)) : 0;
+  }
   void set_damping_loss(double loss) { damping_loss_ = loss; }
   /// Whether Backend::update_output_fields has run at the present state, so that no sweep is needed. Callers that
   /// change the state from outside must reset it.

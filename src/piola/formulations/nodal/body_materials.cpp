@@ -14,14 +14,22 @@ namespace {
 /// Coefficient of the viscous pressure of shocks where heat changes the pressure.
 constexpr double default_shock = 2;
 
+double mean_spacing(Body const& body, int dimension) {
+  double mean = 1;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(dimension); ++c)
+    mean *= std::pow(body.spacing[c], 1.0 / dimension);
+  return mean;
+}
+
 }  // namespace
+
+double width_of_crack(Body const& body, int dimension) { return 2 * mean_spacing(body, dimension); }
 
 BodyMaterials::BodyMaterials(std::vector<MaterialParameters> const& materials, ParticleSet const& set, Body const& body,
                              SlotOrder const& order, Options const& options)
     : name_(body.name) {
   double const spacing = *std::min_element(body.spacing.begin(), body.spacing.begin() + set.dimension);
-  for (std::size_t c = 0; c < static_cast<std::size_t>(set.dimension); ++c)
-    mean_spacing_ *= std::pow(body.spacing[c], 1.0 / set.dimension);
+  mean_spacing_ = mean_spacing(body, set.dimension);
   auto const part = [&](Index slot) {
     return part_of(set, static_cast<std::size_t>(order.id[static_cast<std::size_t>(slot)]));
   };
@@ -41,6 +49,17 @@ BodyMaterials::BodyMaterials(std::vector<MaterialParameters> const& materials, P
                                 0};
       ranges_.push_back({materials[k], constants, first, last});
     });
+    if (options.failure)
+      with_solid(materials[k], [&](auto const& law) {
+        double const band = width_of_crack(body, set.dimension);
+        ranges_.back().failure = {law.fracture.strength,
+                                  law.fracture.energy,
+                                  modulus_across_crack(set.dimension, law.kappa, law.mu),
+                                  band,
+                                  law.damages,
+                                  law.s_wave_speed() / band,
+                                  law.fracture.displacement > 0 ? band / law.fracture.displacement : 0};
+      });
     first = last;
   }
   PIOLA_ENSURES(first == order.particles);

@@ -8,6 +8,10 @@
 
 namespace piola::nodal {
 
+/// Width of the band of cells that a crack breaks: two rows, because an opening is between two particles, whose cells
+/// both see it [m].
+double width_of_crack(Body const& body, int dimension);
+
 /// The materials of a body and of its parts, by slots.
 class BodyMaterials {
  public:

@@ -11,6 +11,8 @@ namespace {
 
 /// Largest admissible entry on the diagonal of the inverse of the normal equations: 116 in a lattice, 720 with jitter.
 constexpr double worst_condition = 1e4;
+/// Beside cracks, where a linear fit is the alternative, and of that.
+constexpr double worst_beside_cracks = 1000, worst_linear = 10;
 /// Added to the squared distance from the middle of a facet in the weights: particles that share a facet dominate.
 constexpr double core = 0.05;
 
@@ -87,9 +89,10 @@ std::array<double, static_cast<std::size_t>(Quadratic<D>::values)> monomials_at(
 }  // namespace
 
 template <int D>
-FacetFluxes<D>::FacetFluxes(LocalFits<D>& fits, ScaledBody const& body)
+FacetFluxes<D>::FacetFluxes(LocalFits<D>& fits, ScaledBody const& body, CrackLines const* cracks)
     : fits_(fits),
       body_(body),
+      cracks_(cracks),
       facets_(fits.X().size(),
               [&](auto const& f) {
                 for (std::size_t k = 0; k < body.facets.size(); ++k) {
@@ -138,21 +141,42 @@ std::vector<typename FacetFluxes<D>::Candidate> FacetFluxes<D>::candidates_of(st
   return all;
 }
 
+/// Adds the fluxes of the field that is fitted to the members on a facet. Returns whether they determine one well.
+template <int D>
+template <int N>
+bool FacetFluxes<D>::add_members(CellFacet const& facet, double sign, std::vector<Member<N>> const& members,
+                                 double worst) {
+  NormalEquations<N> equations;
+  for (Member<N> const& member : members) equations.add(member.weight, member.p);
+  if (members.size() < static_cast<std::size_t>(N) || !(equations.factorise() < worst)) return false;
+  for (std::size_t J = 0; J < D; ++J) {
+    auto const moments = of_dimension<D>(facet.moments[J]);
+    std::array<double, static_cast<std::size_t>(N)> of_field;
+    std::copy_n(moments.begin(), of_field.size(), of_field.begin());
+    auto const y = equations.solve(of_field);
+    for (Member<N> const& member : members) {
+      if (member.k == itself) continue;  // rows sum to zero
+      double value = 0;
+      for (std::size_t m = 0; m < y.size(); ++m) value += y[m] * member.p[m];
+      flux_[member.k * D + J] += sign * member.weight * value;
+    }
+  }
+  return true;
+}
+
 template <int D>
 bool FacetFluxes<D>::add_facet(std::size_t a, CellFacet const& facet, std::vector<Candidate> const& candidates) {
   auto const low = static_cast<std::size_t>(facet.a), high = static_cast<std::size_t>(facet.b);
   std::size_t const other = a == low ? high : low;
+  if (cracks_ != nullptr && cracks_->is_face(a, other)) {
+    add_crack_face(a, facet);
+    return true;
+  }
   auto const across = fits_.difference(low, high);
-  struct Member {
-    std::size_t k;
-    double weight;
-    Row p;
-  };
-  std::vector<Member> members;
+  std::vector<Member<values>> members;
   members.reserve(candidates.size());
-  NormalEquations<values> equations;
   for (auto const& [c, k] : candidates) {
-    if (!fits_.sees(other, c)) continue;
+    if (!fits_.sees(other, c) || (cracks_ != nullptr && cracks_->any() && !fits_.sees(a, c))) continue;
     auto r = fits_.difference(low, c);
     double square = core;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -161,20 +185,44 @@ bool FacetFluxes<D>::add_facet(std::size_t a, CellFacet const& facet, std::vecto
     }
     double const weight = fits_.nearness(low, c) * fits_.nearness(high, c) / square;
     members.push_back({k, weight, monomials_at<D>(r)});
-    equations.add(weight, members.back().p);
   }
-  if (members.size() < static_cast<std::size_t>(values) || !(equations.factorise() < worst_condition)) return false;
-  for (std::size_t J = 0; J < D; ++J) {
-    Row const y = equations.solve(of_dimension<D>(facet.moments[J]));
-    double const sign = a == low ? 1 : -1;
-    for (Member const& member : members) {
-      if (member.k == itself) continue;  // rows sum to zero
-      double value = 0;
-      for (std::size_t m = 0; m < values; ++m) value += y[m] * member.p[m];
-      flux_[member.k * D + J] += sign * member.weight * value;
-    }
+  double const sign = a == low ? 1 : -1;
+  bool const cracked = cracks_ != nullptr && cracks_->any();
+  if (add_members<values>(facet, sign, members, cracked ? worst_beside_cracks : worst_condition)) return true;
+  if (!cracked) return false;
+  // Cracks leave too few for a quadratic: a linear field, or the mean of both particles.
+  std::vector<Member<1 + D>> linear;
+  std::vector<Member<1>> both;
+  for (auto const& member : members) {
+    linear.push_back({member.k, member.weight, {}});
+    std::copy_n(member.p.begin(), 1 + D, linear.back().p.begin());
   }
+  for (auto const& [c, k] : candidates)
+    if (c == a || c == other) both.push_back({k, 1, {1}});
+  if (!add_members<1 + D>(facet, sign, linear, worst_linear)) add_members<1>(facet, sign, both, worst_condition);
   return true;
+}
+
+/// Adds a facet to a cell that is not intact, where the field is that of the fit of a.
+template <int D>
+void FacetFluxes<D>::add_crack_face(std::size_t a, CellFacet const& facet) {
+  bool const is_low = a == static_cast<std::size_t>(facet.a);
+  auto middle = fits_.difference(static_cast<std::size_t>(facet.a), static_cast<std::size_t>(facet.b));
+  for (double& c : middle) c *= is_low ? -0.5 : 0.5;  // from the middle to a
+  for (std::size_t J = 0; J < D; ++J)
+    each_share<D>(fits_, a, moments_about(facet.moments[J], middle), [&](std::size_t k, double share) {
+      if (k != itself) flux_[k * D + J] += is_low ? share : -share;
+    });
+}
+
+template <int D>
+bool FacetFluxes<D>::refill(std::size_t a) {
+  auto const row =
+      std::span(flux_).subspan(fits_.pairs().first(a) * D, (fits_.pairs().end(a) - fits_.pairs().first(a)) * D);
+  std::vector<double> const before(row.begin(), row.end());
+  std::fill(row.begin(), row.end(), 0.0);
+  if (cracks_->condition(a) != CellCondition::detached) fill_row(a);
+  return !std::equal(row.begin(), row.end(), before.begin());
 }
 
 template <int D>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/domain/communicator.hpp"
+#include "piola/formulations/nodal/crack_lines.hpp"
 #include "piola/formulations/nodal/surface_integrals.hpp"
 #include <vector>
 
@@ -30,9 +31,21 @@ struct GradientQuality {
 template <int D>
 class FacetFluxes {
  public:
+  /// cracks: of a body whose cells may fail; the fits are then of a cloud, and know the lines that cracks block.
   /// Enlarges support radii of `fits` until the fits on all facets are well conditioned; fits.unsolvable() tells a
   /// particle where this is impossible. Collective on a distributed body.
-  FacetFluxes(LocalFits<D>& fits, ScaledBody const& body);
+  FacetFluxes(LocalFits<D>& fits, ScaledBody const& body, CrackLines const* cracks = nullptr);
+  /// Computes the fluxes of a cell again, after cells near it have failed. Some of its facets are then
+  /// surface (CrackLines::is_face); a detached cell has no fluxes. Returns whether they have changed.
+  bool refill(std::size_t a);
+  /// Calls f(b) for the particles whose cells have a facet with that of a.
+  template <class F>
+  void each_beside(std::size_t a, F const& f) const {
+    for (std::size_t const k : facets_.of(a)) {
+      auto const low = static_cast<std::size_t>(body_.facets[k].a), high = static_cast<std::size_t>(body_.facets[k].b);
+      f(a == low ? high : low);
+    }
+  }
 
   /// V_a G_ab along J for pair k of a, a position in pairs() of the fits.
   double flux(std::size_t a, std::size_t k, int J) const {
@@ -54,6 +67,15 @@ class FacetFluxes {
   std::vector<Candidate> candidates_of(std::size_t a) const;
   bool add_facet(std::size_t a, CellFacet const& facet, std::vector<Candidate> const& candidates);
   void add_surface(SurfacePatch const& patch);
+  void add_crack_face(std::size_t a, CellFacet const& facet);
+  template <int N>
+  struct Member {
+    std::size_t k;  ///< position in the pairs of a, or itself
+    double weight;
+    std::array<double, static_cast<std::size_t>(N)> p;
+  };
+  template <int N>
+  bool add_members(CellFacet const& facet, double sign, std::vector<Member<N>> const& members, double worst);
   /// Calls f(k, share) with the weights of particles in the integral of a radial field over the section of cell a, as
   /// each_share(). The flux of R f through the surface of a cell is int (R df/dR + f) dA.
   template <class F>
@@ -62,6 +84,7 @@ class FacetFluxes {
 
   LocalFits<D>& fits_;
   ScaledBody const& body_;
+  CrackLines const* cracks_;
   ItemsOfParticles facets_, patches_;
   std::vector<double> flux_;  ///< D per pair; on a lattice only those of representatives are filled
 };

@@ -82,6 +82,13 @@ void FieldSetUp::fill_histories() {
           for (int c = 0; c < D; ++c) value_at(s_.history, i, at + HistoryLayout::F + c * (D + 1)) = 1;
           if (D == 2) value_at(s_.history, i, at + HistoryLayout::F + 4) = 1;
         }
+      if (!s_.has.failure) return;
+      for (Index i = std::max(range.first, body_.own().first); i < std::min(range.last, body_.own().last); ++i) {
+        auto const id = static_cast<std::size_t>(body_.id(i));
+        auto const put = [&](int of, double number) { value_at(s_.history, i, Fields::failure_value(of, D)) = number; };
+        put(FailureLayout::volume_factor, 1);
+        put(FailureLayout::toughness, law.scatter.factor(id, body_.set().volume[id]));
+      }
     });
 }
 

@@ -41,11 +41,30 @@ struct HistoryLayout {
   static constexpr int point(int q, int D) { return of_cell + q * (F + D * D + (D == 2 ? 1 : 0)); }
 };
 
+/// Values of a cell that may fail, after its points in the field `history`, relative to Fields::solid_values(D).
+struct FailureLayout {
+  enum : int {
+    condition,        ///< see CellCondition
+    softening,        ///< share of tension and shear that is lost, 0 to 1
+    largest_stress,   ///< largest principal stress so far, undamaged, root mean square over the points [Pa]
+    fracture_energy,  ///< lost by softening, per reference volume [J/m^3]
+    toughness,        ///< factor on the failure strength; constant
+    volume_factor,    ///< volume ratio over that of the stored F, after gradients changed
+    refitted,         ///< 1: gradients have changed, the stored F is that of the gradients before
+    size
+  };
+};
+
+/// Broken: softened entirely; carries pressure only, and hides what is behind its particle. Detached: carries nothing,
+/// and its particle is in no fit of another cell.
+enum class CellCondition : char { intact, broken, detached };
+
 /// Conditions under which a body has fields beyond those of the elastic motion.
 struct FieldNeeds {
   bool viscosity = false;
-  bool solids = false;  ///< some cell has a solid in rate form
-  bool offset = false;  ///< F starts from given values
+  bool solids = false;   ///< some cell has a solid in rate form
+  bool failure = false;  ///< cells may fail
+  bool offset = false;   ///< F starts from given values
   bool implicit_pressure = false;
   bool axisymmetric = false;
 };
@@ -60,6 +79,9 @@ struct Fields {
   /// Strain and viscous stress at every point, and three values of the cell.
   static constexpr int viscous_values(int D) { return 2 * points(D) * second(D) + 3; }
   static constexpr int solid_values(int D) { return HistoryLayout::point(points(D), D); }
+  /// Position in `history` of a value of FailureLayout.
+  static constexpr int failure_value(int of, int D) { return solid_values(D) + of; }
+  int history_values() const { return solid_values(dimension) + (has.failure ? int{FailureLayout::size} : 0); }
   /// Condition of fields whose memory, if any, is that of NeighbourRecords.
   static constexpr bool in_records = false;
 
@@ -91,7 +113,7 @@ struct Fields {
   ListedRef a{owner, "Acceleration", "m/s2", dimension, Role::evolved};
   ListedRef C_measured{owner, "MeasuredStretch", "1", second(dimension), Role::evolved};
   ListedRef change{owner, "Change", "1", 2, Role::evolved};
-  ListedRef history{owner, "SolidHistory", "1", solid_values(dimension), Role::evolved, has.solids};
+  ListedRef history{owner, "SolidHistory", "1", history_values(), Role::evolved, has.solids};
   ListedRef viscous{owner, "ViscousHistory", "1", viscous_values(dimension), Role::evolved, has.viscosity};
 
   // Implicit pressure, in the last step and in the one before: pressure of the bulk modulus, tension positive;
@@ -116,7 +138,7 @@ struct Fields {
                  Role::derived, has.implicit_pressure};
   ListedRef ratio{owner, "CellVolumeRatio", "1", 1, Role::derived, has.implicit_pressure};
   ListedRef mean_v{owner, "MeanVelocity", "m/s", dimension, Role::derived, has.implicit_pressure};
-  ListedRef history_kept{owner, "SolidHistoryAtStepStart", "1", solid_values(dimension), Role::derived, has.solids};
+  ListedRef history_kept{owner, "SolidHistoryAtStepStart", "1", history_values(), Role::derived, has.solids};
   ListedRef viscous_kept{owner,        "ViscousHistoryAtStepStart", "1", viscous_values(dimension), Role::derived,
                          has.viscosity};
 };

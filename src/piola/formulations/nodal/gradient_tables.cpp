@@ -113,7 +113,7 @@ void GradientTables<D>::fill_images() {
     to_.own_fractions[a] = 1 / images.multiplicity(static_cast<Index>(a));
 }
 
-/// Mass, cell, and the sums of its gradients.
+/// Mass and cell of a particle.
 template <int D>
 void GradientTables<D>::fill_cell(std::size_t a, double mass) {
   auto const& cell = scaled_.cells[a];
@@ -121,6 +121,12 @@ void GradientTables<D>::fill_cell(std::size_t a, double mass) {
   auto const L = cholesky<D>(cell, scaled_.h);
   for (std::size_t c = 0; c < L.size(); ++c) to_.L[a * L.size() + c] = parity(a) * L[c];
   for (std::size_t c = 0; c < dimension; ++c) to_.centroid[a * dimension + c] = cell.centroid[c] * scaled_.h[c];
+  fill_own(a);
+}
+
+/// Sums of the gradients of a cell over its neighbours.
+template <int D>
+void GradientTables<D>::fill_own(std::size_t a) {
   auto const& pairs = fits_.pairs();
   double* const own = &to_.own[a * numbers];
   typename LocalFits<D>::Monomials sum{};  // of s p
@@ -251,6 +257,39 @@ void GradientTables<D>::fill_pairs() {
   });
 }
 
+template <int D>
+void GradientTables<D>::refill(std::vector<std::size_t> const& particles) {
+  auto const& pairs = fits_.pairs();
+  std::size_t const before = pairs.first(first_);
+  for (LazyZeroArray<double>* array : {&to_.own, &to_.k, &to_.hoop})
+    if (array->empty())
+      *array = LazyZeroArray<double>(slots_ * (array == &to_.own ? numbers
+                                               : array == &to_.k ? terms * second
+                                                                 : HoopSums::size));
+  for (std::size_t const a : particles) {
+    if (is_local(a)) {
+      std::fill_n(&to_.own[a * numbers], numbers, 0.0);
+      std::fill_n(&to_.hoop[a * HoopSums::size], HoopSums::size, 0.0);
+      fill_own(a);
+      fill_second(a, &to_.k[a * terms * second]);
+      if (!scaled_.sections.empty()) fill_hoop(a);
+    }
+    for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
+      std::size_t const b = pairs.at(k);
+      if (is_local(a)) {
+        to_.weight[k - before] = pairs.weight[k];
+        for (std::size_t J = 0; J < dimension; ++J)
+          to_.gradient[(k - before) * dimension + J] = first_derivative(a, k, J);
+      }
+      if (!is_local(b)) continue;
+      std::size_t const back = opposite(a, b) - before;
+      to_.back_weight[back] = pairs.weight[k];
+      for (std::size_t J = 0; J < dimension; ++J)
+        to_.reaction[back * dimension + J] = fluxes_.flux(a, k, static_cast<int>(J)) * scaled_.h_volume / scaled_.h[J];
+    }
+  }
+}
+
 /// Slot of a particle or an image of the scaled body.
 template <int D>
 std::size_t GradientTables<D>::place_of(std::size_t b) const {
@@ -260,7 +299,7 @@ std::size_t GradientTables<D>::place_of(std::size_t b) const {
 /// The lists of own particles.
 template <int D>
 void GradientTables<D>::take_lists() {
-  Pairs pairs = fits_.take_pairs();
+  Pairs pairs = from_.failure ? fits_.pairs() : fits_.take_pairs();
   std::size_t const before = pairs.first(first_), after = pairs.first(last_) - before;
   auto const keep = [&](auto& of_pairs) {
     of_pairs.erase(of_pairs.begin(), of_pairs.begin() + static_cast<std::ptrdiff_t>(before));
@@ -277,6 +316,7 @@ void GradientTables<D>::take_lists() {
     to_.begin[slot] = pairs.begin[std::min(slot, last_)] - static_cast<std::int64_t>(before);
   to_.neighbour = std::move(pairs.neighbour);
   if (to_.lattice.empty()) to_.weight = std::move(pairs.weight);
+  if (from_.failure) to_.back_weight = to_.weight;
 }
 
 /// One set of gradients for each distinct group of lanes. What a particle gets from its neighbours depends on their

@@ -12,8 +12,13 @@ class GradientTables {
  public:
   GradientTables(SetUp const& from, ScaledBody const& scaled, LocalFits<D>& fits, FacetFluxes<D> const& fluxes,
                  Reference& to);
-  /// mass: over that of a spacing. lattice: the one that loops use, if any. Moves the pairs out of the fits.
+  /// mass: over that of a spacing. lattice: the one that loops use, if any. Moves the pairs out of the fits, except
+  /// those of a body whose cells may fail.
   void operator()(LazyZeroArray<double> const& mass, std::optional<LatticeShape> const& lattice);
+  /// Takes over the gradients of these particles again, after cells have failed. Of Reference the lists are valid
+  /// afterwards, and `own`, `k` and `hoop` of these particles.
+  void refill(std::vector<std::size_t> const& particles);
+  bool is_local(std::size_t a) const { return a >= first_ && a < last_; }
 
  private:
   static constexpr auto dimension = static_cast<std::size_t>(D);
@@ -27,6 +32,7 @@ class GradientTables {
   void fill_seen();
   void fill_images();
   void fill_cell(std::size_t a, double mass);
+  void fill_own(std::size_t a);
   void fill_second(std::size_t a, double* k) const;
   void fill_hoop(std::size_t a);
   void fill_pairs();

@@ -100,7 +100,7 @@ struct ListSums {
       Four sum[D][vectors]{};
       for (std::int64_t k = table.begin[a]; k < table.begin[a + 1]; ++k) {
         Index const b = table.neighbour[k];
-        Coefficients<D> const of(X - load_four(motion_of(b)), table.s[k], table.reaction + D * k);
+        Coefficients<D> const of(X - load_four(motion_of(b)), table.s_back[k], table.reaction + D * k);
         double const* const other = stress_of(b);
         for (int i = 0; i < D; ++i)
           for (int n = 0; n < vectors; ++n) sum[i][n] += load_four(other + i * R::used + apart * n) * of.c[n];
@@ -120,7 +120,7 @@ struct ListSums {
     for (std::int64_t k = table.begin[a]; k < table.begin[a + 1]; ++k) {
       Index const b = table.neighbour[k];
       double c[R::used];
-      coefficients(table.s[k], motion_of(b), own, table.reaction + D * k, c);
+      coefficients(table.s_back[k], motion_of(b), own, table.reaction + D * k, c);
       double const* const other = stress_of(b);
       for (int i = 0; i < D; ++i)
         for (int n = 0; n < R::used; ++n) force[i] += other[i * R::used + n] * c[n];

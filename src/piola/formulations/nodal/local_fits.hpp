@@ -35,6 +35,14 @@ struct Pairs {
   Index farthest() const;
 };
 
+/// Neighbours at exactly the support radius do not count, whatever the round-off of positions in a lattice.
+inline constexpr double nearly = 1 - 1e-9;
+
+double square_of_distance(Points const& X, std::size_t a, std::size_t b);
+
+/// Largest support radius: beyond it a body has too few particles across.
+inline constexpr double longest_reach = 5;
+
 /// Distance from a face beyond which particles of a lattice have all neighbours.
 inline constexpr int beyond_reach = static_cast<int>(usual_reach) + 1;
 
@@ -73,6 +81,9 @@ void scatter_in_order(Range range, IndexSet const& rows, Index reach, F const& f
 
 /// Pairs of the particles `rows` nearer than the larger of their two support radii.
 Pairs find_pairs(Points const& X, std::span<double const> reach, IndexSet const& rows);
+
+/// Removes pairs of these rows for which `drop` is true. Returns whether there was one.
+bool drop_pairs(Pairs& pairs, IndexSet const& rows, std::function<bool(std::size_t, std::size_t)> const& drop);
 
 /// The particles of a range, their neighbours, and the particles marked already.
 IndexSet with_neighbours(Pairs const& pairs, Range range, std::vector<bool> marked);
@@ -118,6 +129,9 @@ class LocalFits {
   /// Enlarges the support radii of the points whose entry in `good` is 0, and repeats the fits. Returns whether there
   /// was none. Collective if the points are distributed, with entries that count for local points.
   bool refine(std::vector<char> const& good);
+  /// Weights and fit of a point of a cloud from the pairs that are not blocked now: quadratic, or linear if that is
+  /// all that they determine. Returns whether they determine one. Collective work is not needed.
+  bool refit(std::size_t a);
   /// Local points whose support radius is above the usual one.
   Index enlarged() const;
   /// (A^-1)_kl of a particle.
@@ -142,6 +156,10 @@ class LocalFits {
   bool lengthen(std::vector<char> const& fits);
   /// Computes the inverse of particle a and stores it at `at`.
   bool fit(std::size_t a, std::size_t at);
+  /// Largest entry on the diagonal of the inverse that is stored at `at`.
+  double worst_of(std::size_t at) const;
+  /// As fit() for a linear field: second derivatives are zero.
+  bool fit_linear(std::size_t a);
 
   Points const& X_;
   std::optional<DistributedSlots> shared_;

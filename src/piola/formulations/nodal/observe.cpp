@@ -60,6 +60,14 @@ void add_oscillation(NodalBody const& body, LazyZeroArray<double> const& by_slot
     o.add_oscillation(body.set(), body.body(), by_id);
 }
 
+void add_failure(NodalBody const& body, Index i, NodalDiagnosticsSum& o) {
+  FailureConstants const& law = body.material(i).failure;
+  double const V = body.volume(i), failed = body.is_broken(i) ? 1 : 0;
+  std::array const numbers{failed, V * body.failure_value(i, FailureLayout::fracture_energy),
+                           law.strength < unbounded ? failed * V / law.band : 0};
+  o.failure.add(numbers.data());
+}
+
 }  // namespace
 
 void add_diagnostics(NodalBody const& body, NodalDiagnosticsSum& o) {
@@ -72,10 +80,12 @@ void add_diagnostics(NodalBody const& body, NodalDiagnosticsSum& o) {
                  of_cell = V * cell(body, i, energy), plastic = V * body.mean_of_points(i, HistoryLayout::plastic_work);
     strain.add(&of_cell);
     o.plastic_work.add(&plastic);
+    if (body.state().has.failure) add_failure(body, i, o);
     o.least_jacobian = std::min(o.least_jacobian, least);
-    o.add_state(cell(body, i, mean_J), p, V);
+    double const J = body.is_broken(i) ? 1 : cell(body, i, mean_J);  // that of a broken cell is the width of its crack
+    o.add_state(J, p, V);
     o.add_motion(body.x(i), body.v(i), body.mass(i));
-    o.of_cells.add_state(cell(body, i, mean_J), of_cells[static_cast<std::size_t>(i)], V);
+    o.of_cells.add_state(J, of_cells[static_cast<std::size_t>(i)], V);
   }
   if (body.shared()) comm::allreduce_sum(strain);
   o.add_strain_energy(strain.value());
@@ -91,6 +101,7 @@ Diagnostics finish(NodalDiagnosticsSum o) {
     o.share();
     o.of_cells.share();
     comm::allreduce_sum(o.plastic_work);
+    comm::allreduce_sum(o.failure);
     double below = -o.least_jacobian;
     comm::allreduce_max(below);
     o.least_jacobian = -below;
@@ -100,7 +111,10 @@ Diagnostics finish(NodalDiagnosticsSum o) {
             {"repeated_steps", o.repeated_steps},
             {"cell_pressure_oscillation", o.of_cells.finish().pressure_oscillation},
             {"plastic_work", o.plastic_work.value(0)},
-            {"internal_energy", d.strain_energy}};
+            {"internal_energy", d.strain_energy},
+            {"failed_particles", o.failure.value(0)},
+            {"fracture_energy", o.failure.value(1)},
+            {"crack_area", o.failure.value(2)}};
   return d;
 }
 
@@ -130,7 +144,7 @@ constexpr std::size_t of_every_law = 16;  ///< the others belong to solids in ra
 
 void add_history(NodalBody const& body, Index i, ParticleOutput& p) {
   p.plastic_strain = body.mean_of_points(i, HistoryLayout::plastic_strain);
-  p.damage = body.mean_of_points(i, HistoryLayout::damage);
+  p.damage = std::max(body.mean_of_points(i, HistoryLayout::damage), body.failure_value(i, FailureLayout::softening));
   p.temperature = body.mean_of_points(i, HistoryLayout::temperature);
   p.specific_energy = NodalBody::value(body.state().history, i, HistoryLayout::energy);
 }

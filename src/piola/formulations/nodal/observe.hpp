@@ -12,6 +12,7 @@ struct NodalDiagnosticsSum : DiagnosticsSum {
   double least_jacobian = std::numeric_limits<double>::infinity();  ///< at a point of a cell
   double repeated_steps = 0;
   exec::ReproducibleSums<1> plastic_work;  ///< [J]
+  exec::ReproducibleSums<3> failure;       ///< broken cells; energy lost by softening [J]; area of cracks [m2]
   DiagnosticsSum of_cells;                 ///< of the unsmoothed pressure of cells
 };
 

@@ -3,6 +3,7 @@
 #include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -52,9 +53,11 @@ constexpr std::array choices{
         pressure_words}};
 
 /// Columns of Diagnostics::more (observe.cpp).
-constexpr std::array diagnostics{DiagnosticInfo{"cell_jacobian_min", "1"}, DiagnosticInfo{"repeated_steps", "1"},
-                                 DiagnosticInfo{"cell_pressure_oscillation", "1"}, DiagnosticInfo{"plastic_work", "J"},
-                                 DiagnosticInfo{"internal_energy", "J"}};
+constexpr std::array diagnostics{
+    DiagnosticInfo{"cell_jacobian_min", "1"},         DiagnosticInfo{"repeated_steps", "1"},
+    DiagnosticInfo{"cell_pressure_oscillation", "1"}, DiagnosticInfo{"plastic_work", "J"},
+    DiagnosticInfo{"internal_energy", "J"},           DiagnosticInfo{"failed_particles", "1"},
+    DiagnosticInfo{"fracture_energy", "J"},           DiagnosticInfo{"crack_area", "m2"}};
 
 }  // namespace
 
@@ -93,6 +96,25 @@ void check_solid(MaterialParameters const& material, bool stress_free, Problems&
                              laws()[static_cast<std::size_t>(material.law)].name));
 }
 
+/// Rejects numbers of a failure that do not belong together.
+void check_failure(FormulationSpec const& spec, MaterialParameters const& material, Problems& problems) {
+  with_solid(material, [&](auto const& law) {
+    Fracture const& of = law.fracture;
+    if ((of.strength < unbounded) != (of.energy > 0))
+      problems.add({},
+                   "material: a crack needs both tensile_strength, the stress at which it opens, and fracture_energy, "
+                   "what it takes per area - give both or neither");
+    if (of.displacement > 0 && !law.damages)
+      problems.add({},
+                   "material: fracture_displacement is that of material of damage 1, and nothing here damages it - "
+                   "give damage or spall too, or leave it out");
+    if (fails(material) && number_of(spec, "fluctuation_viscosity", 0) > 0)
+      problems.add({},
+                   "formulation: fluctuation_viscosity would hold the pieces of a body that fails together (allowed: 0 "
+                   "with damage, spall or tensile_strength) - leave it out");
+  });
+}
+
 /// Rejects what an implicit pressure does not support.
 void check_implicit(FormulationSpec const& spec, std::vector<MaterialParameters> const& materials, int dimension,
                     bool stress_free, Problems& problems) {
@@ -121,6 +143,7 @@ Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters
   for (MaterialParameters const& material : materials) {
     (is_hypoelastic(material) ? solids : hyperelastic) = true;
     if (is_hypoelastic(material)) check_solid(material, stress_free, problems);
+    check_failure(spec, material, problems);
   }
   bool const implicit_pressure = word_of(spec, choices, "pressure") == "implicit";
   if (implicit_pressure) check_implicit(spec, materials, dimension, stress_free, problems);
@@ -137,6 +160,7 @@ Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters
   o.stress_free = stress_free;
   o.cfl = std::isnan(cfl) ? 0 : cfl;
   o.solids = solids;
+  o.failure = std::any_of(materials.begin(), materials.end(), &fails);
   return o;
 }
 

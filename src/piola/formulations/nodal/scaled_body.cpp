@@ -42,20 +42,6 @@ SurfacePatch reflected(SurfacePatch patch, Signs const& sign) {
   return patch;
 }
 
-/// Moments about a place `by` away from the one that they are about.
-Moments about(Moments const& m, std::array<double, 3> const& by) {
-  auto moved = m;
-  for (std::size_t c = 0; c < 3; ++c) moved[1 + c] -= by[c] * m[0];
-  for (std::size_t k = 0; k < 6; ++k) {
-    auto const [c, d] = std::pair(moment_axis[k][0], moment_axis[k][1]);
-    if (c == d)
-      moved[4 + k] += by[c] * (0.5 * by[c] * m[0] - m[1 + c]);
-    else
-      moved[4 + k] += by[c] * by[d] * m[0] - by[c] * m[1 + d] - by[d] * m[1 + c];
-  }
-  return moved;
-}
-
 Signs across(std::size_t axis) {
   Signs sign{1, 1, 1};
   sign[axis] = -1;
@@ -149,7 +135,7 @@ class FacetsBehindPlanes {
     std::array<double, 3> middle{};
     middle[axis] = height;
     CellFacet facet{patch.particle, b, {}};
-    facet.moments[axis] = about(moments, middle);
+    facet.moments[axis] = moments_about(moments, middle);
     facets_.push_back(facet);
   }
   /// Pairs of particles on a plane get the other halves of their facets.
@@ -253,6 +239,19 @@ void take_surface(BodyCells&& measured, std::vector<Index> const& slot_of, Scale
 }
 
 }  // namespace
+
+std::array<double, 10> moments_about(std::array<double, 10> const& m, std::array<double, 3> const& by) {
+  auto moved = m;
+  for (std::size_t c = 0; c < 3; ++c) moved[1 + c] -= by[c] * m[0];
+  for (std::size_t k = 0; k < 6; ++k) {
+    auto const [c, d] = std::pair(moment_axis[k][0], moment_axis[k][1]);
+    if (c == d)
+      moved[4 + k] += by[c] * (0.5 * by[c] * m[0] - m[1 + c]);
+    else
+      moved[4 + k] += by[c] * by[d] * m[0] - by[c] * m[1 + d] - by[d] * m[1 + c];
+  }
+  return moved;
+}
 
 void keep_cells(ScaledBody& body, IndexSet const& of) {
   LazyZeroArray<ScaledCell> kept(body.cells.size());

@@ -40,6 +40,9 @@ struct ScaledBody {
   double farthest_move = 0, unmoved = 0;  ///< see BodyCells
 };
 
+/// Moments of a patch or facet about a place `by` away from the one that they are about.
+std::array<double, 10> moments_about(std::array<double, 10> const& moments, std::array<double, 3> const& by);
+
 /// Frees the memory of the cells of all particles except `of`.
 void keep_cells(ScaledBody& body, IndexSet const& of);
 

@@ -8,6 +8,7 @@
 #include "piola/formulations/nodal/lattice_masses.hpp"
 #include "piola/formulations/nodal/load_integrals.hpp"
 #include "piola/formulations/nodal/masses.hpp"
+#include "piola/formulations/nodal/refits.hpp"
 #include "piola/formulations/nodal/scaled_body.hpp"
 #include "piola/neighbours/line_of_sight.hpp"
 #include <algorithm>
@@ -54,10 +55,11 @@ LazyZeroArray<ScaledCell> heavy_cells(SetUp const& from, LazyZeroArray<ScaledCel
 }
 
 /// The lattice of a body for loops, if possible. Lists are needed by follower pressures, which use gradients particle
-/// by particle, by images, which are not on the lattice, and by axisymmetric bodies, whose cells differ.
+/// by particle, by images, which are not on the lattice, by axisymmetric bodies, whose cells differ, and where cells
+/// may fail.
 std::optional<LatticeShape> shape_for_loops(SetUp const& from) {
   bool const follows = std::any_of(from.loads.begin(), from.loads.end(), [](Load const& load) { return load.follows; });
-  if (follows || from.images != nullptr || from.set.axisymmetric) return std::nullopt;
+  if (follows || from.failure || from.images != nullptr || from.set.axisymmetric) return std::nullopt;
   return lattice_shape(from.set, from.body, from.order);
 }
 
@@ -138,9 +140,24 @@ std::function<bool(std::size_t, std::size_t)> blocked_lines(SetUp const& from, S
   };
 }
 
+/// Checks, loads, supports and halo from the fits and fluxes of a body.
 template <int D>
-Reference make(SetUp const& from) {
-  Reference r;
+void use_fits(SetUp const& from, ScaledBody& scaled, LocalFits<D> const& fits, FacetFluxes<D> const& fluxes,
+              std::optional<DistributedSlots> const& shared, Reference& r) {
+  if (shared) keep_cells(scaled, fits.rows());
+  if (shared) r.halo = std::make_unique<HaloPlan>(shared->slots, ghost_neighbours(fits.pairs(), fits.own()));
+  SurfaceIntegrals<D> const surface(fits, scaled.patches);
+  check_gradients(from, fluxes.measure(surface), r.checks);
+  check_surface(from, scaled, r.checks);
+  r.parts = load_integrals<D>(from, fits, surface, {scaled.h, r.checks});
+  for (auto& parts : r.parts) parts.resize(std::min(parts.size(), scaled.particles));
+  bool const is_box = !from.body.outline.inside;
+  if (from.contact && is_box) r.face_areas = face_areas<D>(from, surface, scaled.h);
+  r.held = constrained_facets<D>(from, fits, scaled.patches, scaled.h);
+}
+
+template <int D>
+void make(SetUp const& from, Reference& r) {
   auto clock = std::chrono::steady_clock::now();
   auto const shape = shape_for_loops(from);
   ScaledBody scaled = scaled_body(from, shape);
@@ -152,6 +169,17 @@ Reference make(SetUp const& from) {
   // First, because its pairs reach farther than those that are kept.
   auto const mass = masses<D>(from, scaled, shape, {shared, endless});
   r.costs.masses = since(clock);
+  if (from.failure) {
+    auto refits = std::make_shared<RefitsOf<D>>(from, std::move(scaled), shared, &blocked_lines);
+    r.refits = refits;
+    r.costs.fits = since(clock);
+    refuse_unsolvable(from, refits->fits());
+    use_fits<D>(from, refits->scaled(), refits->fits(), refits->fluxes(), shared, r);
+    r.costs.gradients = since(clock);
+    refits->tables(r)(mass, std::nullopt);
+    r.costs.tables = since(clock);
+    return;
+  }
   LocalFits<D> fits(scaled.X, shape, shared, blocked_lines(from, scaled));
   refuse_unsolvable(from, fits);
   if (shape && !fits.usual()) scaled.facets = scaled_body(from, std::nullopt).facets;
@@ -159,20 +187,10 @@ Reference make(SetUp const& from) {
   FacetFluxes<D> const fluxes(fits, scaled);
   refuse_unsolvable(from, fits);
   std::vector<CellFacet>().swap(scaled.facets);
-  if (shared) keep_cells(scaled, fits.rows());
-  if (shared) r.halo = std::make_unique<HaloPlan>(shared->slots, ghost_neighbours(fits.pairs(), fits.own()));
-  SurfaceIntegrals<D> const surface(fits, scaled.patches);
-  check_gradients(from, fluxes.measure(surface), r.checks);
-  check_surface(from, scaled, r.checks);
-  r.parts = load_integrals<D>(from, fits, surface, {scaled.h, r.checks});
-  for (auto& parts : r.parts) parts.resize(std::min(parts.size(), scaled.particles));
-  bool const is_box = !from.body.outline.inside;
-  if (from.contact && is_box) r.face_areas = face_areas<D>(from, surface, scaled.h);
-  r.held = constrained_facets<D>(from, fits, scaled.patches, scaled.h);
+  use_fits<D>(from, scaled, fits, fluxes, shared, r);
   r.costs.gradients = since(clock);
   GradientTables<D>(from, scaled, fits, fluxes, r)(mass, fits.usual() ? shape : std::nullopt);
   r.costs.tables = since(clock);
-  return r;
 }
 
 }  // namespace
@@ -185,9 +203,9 @@ bool SetUp::is_shared() const {
   return own && images == nullptr && std::none_of(supports.begin(), supports.end(), on_body);
 }
 
-Reference make_reference(SetUp const& from) {
-  if (from.set.dimension == 1) return make<1>(from);
-  return from.set.dimension == 2 ? make<2>(from) : make<3>(from);
+void make_reference(SetUp const& from, Reference& to) {
+  if (from.set.dimension == 1) return make<1>(from, to);
+  return from.set.dimension == 2 ? make<2>(from, to) : make<3>(from, to);
 }
 
 }  // namespace piola::nodal

@@ -38,6 +38,7 @@ struct SetUp {
   MirrorImages const* images = nullptr;     ///< the whole body behind its mirror planes; nullptr: it has none
   std::optional<Range> own = std::nullopt;  ///< local slots if the body is distributed; empty: all
   bool contact = false;                     ///< contact acts on the body
+  bool failure = false;                     ///< cells may fail
 
   /// Whether the set-up is distributed over ranks. With mirror planes, or surface places that supports hold, each rank
   /// sets up the whole body.
@@ -66,6 +67,23 @@ struct LatticeGradients {
   std::size_t bytes() const { return 8 * (offset.size() + motion.size() + force.size()) + 4 * group.size(); }
 };
 
+/// The gradients of a body whose cells may fail, which follow the conditions of the cells.
+class Refits {
+ public:
+  virtual ~Refits() = default;
+  /// Slots with a new condition, in ascending order, on all ranks alike.
+  struct Change {
+    Index slot;
+    CellCondition condition;
+  };
+  /// Sets conditions, and the gradients of the intact cells around in `to`, which must stay where it is.
+  struct Found {
+    std::vector<Index> changed;     ///< local slots with other gradients
+    std::vector<Index> unsolvable;  ///< local slots whose neighbours determine no gradient: these cells fail, too
+  };
+  virtual Found set(std::vector<Change> const& changes) = 0;
+};
+
 /// The undeformed body for the loops: values per slot, in the order of Fields. On ranks: of local slots, and V and X of
 /// ghosts. Theory: docs/theory/nodal.md, section 3.
 struct Reference {
@@ -79,7 +97,8 @@ struct Reference {
   LazyZeroArray<std::int64_t> begin;  ///< lists, see GradientList; of a lattice without weights and gradients
   std::vector<Index> neighbour;
   std::vector<double> weight, gradient, reaction;
-  LatticeGradients lattice;  ///< replaces the gradients of lists if particles fill a lattice
+  std::vector<double> back_weight;  ///< of a body whose cells may fail: the weights for the neighbours
+  LatticeGradients lattice;         ///< replaces the gradients of lists if particles fill a lattice
   // With mirror planes lists refer to images by the slots after those of the body; V and mass are those of the whole
   // body.
   std::vector<Index> images;            ///< images that are neighbours, numbered as in SetUp::images
@@ -88,9 +107,11 @@ struct Reference {
   std::unique_ptr<HaloPlan> halo;       ///< of ghosts, without fields; nullptr on one rank
   std::vector<SetUpCheck> checks;
   SetUpCosts costs;
+  std::shared_ptr<Refits> refits;  ///< of a body whose cells may fail; else nullptr
 
   GradientList list() const {
-    return {begin.data(), neighbour.data(), weight.data(), gradient.data(), reaction.data()};
+    return {begin.data(),    neighbour.data(), weight.data(),
+            gradient.data(), reaction.data(),  back_weight.empty() ? weight.data() : back_weight.data()};
   }
   /// Slot of a neighbour, or of the source of an image.
   Index owner(Index neighbour_slot) const {
@@ -108,7 +129,7 @@ struct Reference {
 };
 
 /// Throws InputError: a particle without a cell, too few particles across, gradients that miss the divergence theorem.
-/// Collective on a distributed body; all ranks throw.
-Reference make_reference(SetUp const& from);
+/// Collective on a distributed body; all ranks throw. `to`: new; must stay where it is if cells may fail.
+void make_reference(SetUp const& from, Reference& to);
 
 }  // namespace piola::nodal

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/exec/field_view.hpp"
+#include "piola/formulations/nodal/cell_stress.hpp"
 #include "piola/formulations/nodal/quadratic.hpp"
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/materials/finite_increment.hpp"
@@ -24,7 +25,8 @@ class SolidCells {
   enum class Wanted {
     as_left,  ///< the stress at the end of the last step
     trial,    ///< of a trial step, which stores no state and has no yield
-    end       ///< at the end of a step, whose state is stored
+    end,      ///< at the end of a step, whose state is stored
+    refitted  ///< as left, seen through gradients that have changed, whose F is stored
   };
 
   /// For the particles of a material, dt [s] after the last step. `law` must outlive this.
@@ -36,12 +38,15 @@ class SolidCells {
         pressure_(&pressure<Law>),
         rho0_(law.rho0),
         mu_(law.mu),
+        kappa_(law.kappa),
         kappa_local_(range.constants.kappa_local),
         shock_(range.constants.shock),
         dt_(dt),
         wanted_(wanted),
         first_(range.first),
         last_(range.last),
+        fails_(body.has.failure),
+        failure_(range.failure),
         history_(read(body.history)),
         history_out_(write(body.history)) {}
 
@@ -49,6 +54,7 @@ class SolidCells {
   template <class Energy>
   PIOLA_FN void operator()(Index i, Energy& energy) const {
     energy.mean_J = Lanes(0.0);
+    if (fails_) rest_detached(i, energy);
     for (int q = 0; q < points; ++q) {
       energy.J[q] = determinant(energy.F[q]);
       energy.mean_J = energy.mean_J + (1.0 / points) * energy.J[q];
@@ -57,11 +63,17 @@ class SolidCells {
     Cell cell = left_at(i);
     if (wanted_ == Wanted::as_left) {
       stresses(cell, cell.pressure, energy.P);
+    } else if (wanted_ == Wanted::refitted) {
+      refit(i, cell, energy);
+      stresses(cell, Lanes(cell.pressure + cell.shock_pressure), energy.P);
     } else {
       advance(i, cell, energy);
       if (wanted_ == Wanted::end) keep(i, cell);
     }
     energy.energy = rho0_ * cell.energy;
+    if (!fails_) return;
+    energy.mean_J = cell.volume_factor * energy.mean_J;
+    energy.least_J = select(cell.is_intact(), energy.least_J, Lanes(1.0));  // broken cells may be inverted
   }
 
  private:
@@ -73,6 +85,12 @@ class SolidCells {
     Lanes pressure;        ///< of the cell, positive in compression [Pa]
     Lanes shock_pressure;  ///< viscous, of the cell [Pa]
     Lanes energy;          ///< specific internal energy [J/kg]
+    // Cells that may fail have these values, too, see FailureLayout.
+    Lanes condition, volume_factor, toughness;
+    Lanes carried;  ///< share of tension and shear that is left, 0 for cells that are not intact
+
+    PIOLA_FN auto is_intact() const { return condition < 0.5; }
+    PIOLA_FN auto is_detached() const { return condition > 1.5; }
   };
 
   template <class Law>
@@ -81,13 +99,24 @@ class SolidCells {
     static_cast<Law const*>(law)->update(history, trial, pressure, rho, dt);
   }
   template <class Law>
-  static PIOLA_FN double pressure(void const* law, double rho, double e) {
-    return static_cast<Law const*>(law)->pressure(rho, e);
+  static PIOLA_FN double pressure(void const* law, double rho, double e, double toughness) {
+    SolidHistory h;
+    h.toughness = toughness;
+    return static_cast<Law const*>(law)->pressure(h, rho, e);
   }
 
-  /// P_q = (S_q + (spread_q - pressure) I) cof F_q [Pa].
-  PIOLA_FN static void stresses(Cell const& cell, Lanes const& pressure, Mat<3, Lanes> (&P)[points]) {
-    for (int q = 0; q < points; ++q) P[q] = first_piola_of(cell.S[q], Lanes(pressure - cell.spread[q]), cell.F[q]);
+  /// P_q = (S_q + (spread_q - pressure) I) cof F_q [Pa]; of cells that may fail what is carried of S_q and spread_q,
+  /// and times the volume factor. The pressure is what it is.
+  PIOLA_FN void stresses(Cell const& cell, Lanes const& pressure, Mat<3, Lanes> (&P)[points]) const {
+    for (int q = 0; q < points; ++q) {
+      if (!fails_) {
+        P[q] = first_piola_of(cell.S[q], Lanes(pressure - cell.spread[q]), cell.F[q]);
+        continue;
+      }
+      SymMat<3, Lanes> S = cell.S[q];
+      for (Lanes& s : S.c) s = cell.carried * s;
+      P[q] = cell.volume_factor * first_piola_of(S, Lanes(pressure - cell.carried * cell.spread[q]), cell.F[q]);
+    }
   }
   PIOLA_FN static Lanes mean_work(Mat<3, Lanes> const (&P)[points], Mat<3, Lanes> const (&dF)[points]) {
     Lanes sum = contract(P[0], dF[0]);
@@ -119,15 +148,15 @@ class SolidCells {
       H[q] = cofactor(energy.F[q]);
     }
     Lanes work = mean_work(energy.P, dF);
-    Lanes const rho = rho0_ / energy.mean_J;
+    Lanes const rho = rho0_ / volume_ratio(cell, energy.mean_J);
     flow(i, cell, energy.F, rho);
     stresses(cell, Lanes(0.0), energy.P);
     work = cell.energy + (0.5 / rho0_) * (work + mean_work(energy.P, dF));
-    Lanes const volume = (0.5 / rho0_) * mean_work(H, dF);
+    Lanes const volume = (0.5 / rho0_) * mean_work(H, dF) * (fails_ ? cell.volume_factor : Lanes(1.0));
     work = work - cell.shock_pressure * volume;
-    for (int k = 0; k < 3; ++k) cell.pressure = pressures(rho, work - cell.pressure * volume);
+    for (int k = 0; k < 3; ++k) cell.pressure = carried_pressure(cell, rho, work - cell.pressure * volume);
     cell.energy = work - cell.pressure * volume;
-    Lanes const whole = cell.pressure + cell.shock_pressure;
+    Lanes const whole = (cell.pressure + cell.shock_pressure) * (fails_ ? cell.volume_factor : Lanes(1.0));
     for (int q = 0; q < points; ++q) energy.P[q] = energy.P[q] - whole * H[q];
   }
 
@@ -137,7 +166,58 @@ class SolidCells {
     Lanes before = Lanes(0.0);
     for (int q = 0; q < points; ++q) before = before + (1.0 / points) * determinant(cell.F[q]);
     Lanes const closing = maximum((1 / dt_) * (before - mean_J), Lanes(0.0));
-    return shock_ * closing * closing / mean_J;
+    if (!fails_) return shock_ * closing * closing / mean_J;
+    Lanes const Q = shock_ * cell.volume_factor * closing * closing / maximum(mean_J, Lanes(least_ratio));
+    return select(cell.is_detached(), Lanes(0.0), Q);
+  }
+
+  /// Volume ratio of the cell for its density. That of a cell that is not intact has a lower bound: such cells may be
+  /// inverted before they are detached.
+  PIOLA_FN Lanes volume_ratio(Cell const& cell, Lanes const& mean_J) const {
+    if (!fails_) return mean_J;
+    Lanes const J = cell.volume_factor * mean_J;
+    return select(cell.is_intact(), J, maximum(J, Lanes(least_ratio)));
+  }
+
+  /// Pressure of the cell, tension times what is carried of it [Pa].
+  PIOLA_FN Lanes carried_pressure(Cell const& cell, Lanes const& rho, Lanes const& e) const {
+    Lanes const p = pressures(cell, rho, e);
+    if (!fails_) return p;
+    return select(cell.is_detached(), Lanes(0.0), select(p < 0.0, cell.carried * p, p));
+  }
+
+  /// Detached cells are at rest in their reference shape.
+  template <class Energy>
+  PIOLA_FN void rest_detached(Index i, Energy& energy) const {
+    auto const detached = history_.scalar<Lanes>(i, Fields::failure_value(FailureLayout::condition, D)) > 1.5;
+    if (!any(detached)) return;
+    for (int q = 0; q < points; ++q)
+      for (int c = 0; c < 9; ++c) energy.F[q].c[c] = select(detached, Lanes(c % 4 == 0 ? 1.0 : 0.0), energy.F[q].c[c]);
+  }
+
+  /// Takes over gradients that have changed: stress and density stay, and the volume factor makes up for the change of
+  /// the volume ratio.
+  template <class Energy>
+  PIOLA_FN void refit(Index i, Cell& cell, Energy const& energy) const {
+    int const mark = Fields::failure_value(FailureLayout::refitted, D);
+    auto const changed = history_.scalar<Lanes>(i, mark) > 0.5;
+    if (!any(changed)) return;
+    Lanes before = Lanes(0.0);
+    for (int q = 0; q < points; ++q) {
+      before = before + (1.0 / points) * determinant(cell.F[q]);
+      for (int c = 0; c < 9; ++c) cell.F[q].c[c] = select(changed, energy.F[q].c[c], cell.F[q].c[c]);
+    }
+    cell.volume_factor = select(changed, cell.volume_factor * before / energy.mean_J, cell.volume_factor);
+    for (int l = 0; l < lane_count; ++l) {
+      if (!owns(i + l) || !(history_.scalar<double>(i + l, mark) > 0.5)) continue;
+      history_out_.scalar(i + l, lane(cell.volume_factor, l), Fields::failure_value(FailureLayout::volume_factor, D));
+      history_out_.scalar(i + l, 0.0, mark);
+      for (int q = 0; q < points; ++q) {
+        int const at = HistoryLayout::point(q, D) + HistoryLayout::F;
+        for (int c = 0; c < D * D; ++c) history_out_.scalar(i + l, lane(cell.F[q](c / D, c % D), l), at + c);
+        if constexpr (D == 2) history_out_.scalar(i + l, lane(cell.F[q](2, 2), l), at + D * D);
+      }
+    }
   }
 
   /// Deviators and spread of the points at the gradients F. At a yielding point, the spread is scaled by the factor of
@@ -151,34 +231,94 @@ class SolidCells {
       cell.F[q] = F[q];
     }
     elastic_spread(cell, now);
-    Lanes const pressure = pressures(rho, cell.energy);
+    Lanes const pressure = pressures(cell, rho, cell.energy);
+    double strain[lane_count]{};
     for (int q = 0; q < points; ++q) {
-      Lanes const share = wanted_ == Wanted::trial ? Lanes(1.0) : return_to_yield(i, q, cell.S[q], pressure, rho);
+      if (fails_)
+        for (int c = 0; c < 6; ++c) cell.S[q].c[c] = select(cell.is_intact(), cell.S[q].c[c], Lanes(0.0));
+      Lanes const share = wanted_ == Wanted::trial ? Lanes(1.0) : return_to_yield(i, q, cell, pressure, rho, strain);
       Lanes const yielding = cell.spread[q] - stays * before[q] + (1 - stays) * (now[q] - before[q]);
       cell.spread[q] = share * yielding + stays * now[q];
+      if (fails_) cell.spread[q] = select(cell.is_intact(), cell.spread[q], Lanes(0.0));
     }
+    if (fails_ && wanted_ == Wanted::end) soften(i, cell, pressure, strain);
   }
 
-  /// Factor that the yield surface leaves of the trial deviator S of a point. Cells of other materials, and empty ones,
-  /// are skipped.
-  PIOLA_FN Lanes return_to_yield(Index i, int q, SymMat<3, Lanes>& S, Lanes const& pressure, Lanes const& rho) const {
+  /// Softening of the cells of a group of lanes. pressure: of the undamaged material [Pa]; strain: mean increment of
+  /// the plastic strain of the points.
+  PIOLA_FN void soften(Index i, Cell& cell, Lanes const& pressure, double const (&strain)[lane_count]) const {
+    using At = FailureLayout;
+    double carried[lane_count];
+    for (int l = 0; l < lane_count; ++l) {
+      carried[l] = lane(cell.carried, l);
+      if (!owns(i + l) || !(lane(cell.condition, l) < 0.5)) continue;
+      auto const value = [&](int of) { return history_.scalar<double>(i + l, Fields::failure_value(of, D)); };
+      auto const put = [&](int of, double now) { history_out_.scalar(i + l, now, Fields::failure_value(of, D)); };
+      CellStress<points> const stress = stress_of(cell, pressure, l);
+      double const before = value(At::softening);
+      double now = before;
+      if (failure_.strength < unbounded) {
+        CrackBand const band =
+            crack_band(failure_.strength * lane(cell.toughness, l), failure_.energy, failure_.modulus, failure_.band);
+        double const largest = value(At::largest_stress);
+        double const most = maximum(largest, stress.largest_principal(maximum(largest, band.strength)));
+        if (most > largest) put(At::largest_stress, most);
+        now = maximum(now, band.softening(most));
+      }
+      if (failure_.damages && mean_damage(i + l) > least_damage)
+        now = maximum(now,
+                      before + (failure_.per_strain > 0 ? failure_.per_strain * strain[l] : failure_.per_time * dt_));
+      now = minimum(now, 1.0);
+      if (!(now > before)) continue;
+      put(At::softening, now);
+      put(At::fracture_energy, value(At::fracture_energy) + (now - before) * stress.shear_and_tension(kappa_, mu_));
+      carried[l] = 1 - now;
+    }
+    cell.carried = load<Lanes>(carried);
+  }
+
+  /// Stresses of the undamaged material in lane l.
+  PIOLA_FN static CellStress<points> stress_of(Cell const& cell, Lanes const& pressure, int l) {
+    CellStress<points> r;
+    r.pressure = lane(pressure, l);
+    for (int q = 0; q < points; ++q) {
+      for (int c = 0; c < 6; ++c) r.S[q].c[c] = lane(cell.S[q].c[c], l);
+      r.spread[q] = lane(cell.spread[q], l);
+    }
+    return r;
+  }
+
+  PIOLA_FN double mean_damage(Index i) const {
+    double sum = 0;
+    for (int q = 0; q < points; ++q)
+      sum += history_.scalar<double>(i, HistoryLayout::point(q, D) + HistoryLayout::damage) / points;
+    return sum;
+  }
+
+  /// Factor that the yield surface leaves of the trial deviator of a point. Adds the mean increment of plastic strain
+  /// to `grown`. Cells of other materials, empty and broken ones are skipped.
+  PIOLA_FN Lanes return_to_yield(Index i, int q, Cell& cell, Lanes const& pressure, Lanes const& rho,
+                                 double (&grown)[lane_count]) const {
     using At = HistoryLayout;
+    SymMat<3, Lanes>& S = cell.S[q];
     double left[6][lane_count], share[lane_count];
     int const at = At::point(q, D);
     for (int l = 0; l < lane_count; ++l) {
       SymMat<3> trial;
       for (int c = 0; c < 6; ++c) left[c][l] = trial.c[c] = lane(S.c[c], l);
       share[l] = 1;
-      if (!owns(i + l)) continue;
+      if (!owns(i + l) || (fails_ && !(lane(cell.condition, l) < 0.5))) continue;
       auto const value = [&](int c) { return history_.scalar<double>(i + l, at + c); };
       SolidHistory h;
       h.plastic_strain = value(At::plastic_strain);
       h.temperature = value(At::temperature);
       h.damage = value(At::damage);
       h.plastic_work = value(At::plastic_work);
+      if (fails_) h.toughness = lane(cell.toughness, l);
       double const strain = h.plastic_strain;
       update_(law_, h, trial, lane(pressure, l), lane(rho, l), dt_);
       if (h.plastic_strain > strain) share[l] = von_mises(h.S) / von_mises(trial);
+      grown[l] += (h.plastic_strain - strain) / points;
       for (int c = 0; c < 6; ++c) left[c][l] = h.S.c[c];
       history_out_.scalar(i + l, h.plastic_strain, at + At::plastic_strain);
       history_out_.scalar(i + l, h.temperature, at + At::temperature);
@@ -189,9 +329,11 @@ class SolidCells {
     return load<Lanes>(share);
   }
 
-  PIOLA_FN Lanes pressures(Lanes const& rho, Lanes const& e) const {
+  /// Pressures of the undamaged material [Pa].
+  PIOLA_FN Lanes pressures(Cell const& cell, Lanes const& rho, Lanes const& e) const {
     double p[lane_count];
-    for (int l = 0; l < lane_count; ++l) p[l] = pressure_(law_, lane(rho, l), lane(e, l));
+    for (int l = 0; l < lane_count; ++l)
+      p[l] = pressure_(law_, lane(rho, l), lane(e, l), fails_ ? lane(cell.toughness, l) : 1);
     return load<Lanes>(p);
   }
   PIOLA_FN bool owns(Index i) const { return i >= first_ && i < last_; }
@@ -202,6 +344,13 @@ class SolidCells {
     cell.pressure = value(HistoryLayout::pressure);
     cell.shock_pressure = value(HistoryLayout::shock_pressure);
     cell.energy = value(HistoryLayout::energy);
+    if (fails_) {
+      auto const of_failure = [&](int of) { return value(Fields::failure_value(of, D)); };
+      cell.condition = of_failure(FailureLayout::condition);
+      cell.volume_factor = of_failure(FailureLayout::volume_factor);
+      cell.toughness = of_failure(FailureLayout::toughness);
+      cell.carried = select(cell.is_intact(), Lanes(1.0 - of_failure(FailureLayout::softening)), Lanes(0.0));
+    }
     for (int q = 0; q < points; ++q) {
       int const at = HistoryLayout::point(q, D);
       cell.spread[q] = value(at + HistoryLayout::spread);
@@ -233,12 +382,17 @@ class SolidCells {
     }
   }
 
+  static constexpr double least_ratio = 0.05;    ///< of the volume of a cell that is not intact
+  static constexpr double least_damage = 0.999;  ///< from which a cell softens
+
   void const* law_;
   void (*update_)(void const*, SolidHistory&, SymMat<3> const&, double, double, double);
-  double (*pressure_)(void const*, double, double);
-  double rho0_, mu_, kappa_local_, shock_, dt_;
+  double (*pressure_)(void const*, double, double, double);
+  double rho0_, mu_, kappa_, kappa_local_, shock_, dt_;
   Wanted wanted_;
   Index first_, last_;
+  bool fails_;  ///< cells may fail
+  FailureConstants failure_;
   View history_;
   WriteView history_out_;
 };

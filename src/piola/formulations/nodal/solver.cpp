@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/solver.hpp"
 #include "piola/formulations/common/bodies_solver.hpp"
+#include "piola/formulations/nodal/cell_failure.hpp"
 #include "piola/formulations/nodal/energy_descent.hpp"
 #include "piola/formulations/nodal/implicit_pressure.hpp"
 #include "piola/formulations/nodal/observe.hpp"
@@ -26,9 +27,11 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
         options.shock_viscosity = 0;
         options.viscous = false;
         options.implicit_pressure = false;
+        options.failure = false;
       }
       bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, backend_));
       monitors_.push_back(std::make_unique<StabilityMonitor>(*bodies_.back(), backend_));
+      failures_.emplace_back(*bodies_.back(), backend_);
       if (assembly.minimises) descents_.emplace_back(*bodies_.back(), backend_);
     }
     if (assembly.coupled) slots_ = SlotsById(set_, bodies_);
@@ -60,6 +63,8 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
       bodies_[k]->set_observed(false);
       int const halvings = bodies_[k]->step(backend_, time, dt);
       repeated_ += halvings;
+      if (bodies_[k]->state().failure->index >= bodies_[k]->particles() && failures_[k].update())
+        monitors_[k]->expect_change();
       monitors_[k]->update(dt, halvings);
     }
     end_step(time + dt);
@@ -125,6 +130,7 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
   }
 
   Backend const& backend_;
+  std::vector<CellFailure> failures_;    ///< per body
   std::vector<EnergyDescent> descents_;  ///< per body, if the run minimises
   bool ends_step_ = false;  ///< whether the next add_velocities() ends the last step or begins the next one
   double repeated_ = 0;     ///< steps that were taken again in halves
@@ -242,6 +248,7 @@ void Solver::load(StateReader& reader) {
     NodalBody& body = *bodies_[k];
     body.set_observed(false);
     load_fields(reader, k);
+    failures_[k].load();
     monitors_[k]->load(reader, fmt::format("body{}_step_limit", k));
     if (!descents_.empty()) descents_[k].load(reader, fmt::format("body{}_direction", k));
     std::array<double, 2> energy_totals{};

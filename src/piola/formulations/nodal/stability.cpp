@@ -207,7 +207,7 @@ void StabilityMonitor::measure(int cycles, bool at_start) {
     if (found.error < accuracy * found.square) break;
   }
   backend_.restore(body_.state());
-  steps_ = steps_since_measurement_ = 0;
+  steps_ = steps_since_measurement_ = gradients_changed_ = 0;
 }
 
 void StabilityMonitor::update(double dt, int halvings) {
@@ -224,7 +224,7 @@ void StabilityMonitor::update(double dt, int halvings) {
   step_reduction_ =
       halvings > 0 ? std::max(least_caution, halved * step_reduction_) : std::min(1.0, recovery * step_reduction_);
   double const most = body_.largest_change();
-  bool const strained = most >= (steps_ < fewest ? much : change);
+  bool const strained = most >= (steps_ < fewest ? much : change) || (gradients_changed_ > 0 && steps_ >= brisk_pace);
   double const waited = measurement_spacing_ == 0 ? steps_ : steps_since_measurement_;
   if (waited < interval_ && !strained) return;
   double const before = frequency_;
@@ -265,13 +265,14 @@ std::vector<double> StabilityMonitor::state() const {
                         energy_,
                         energy_oscillation_,
                         recent_max_,
-                        recent_max_age_};
+                        recent_max_age_,
+                        gradients_changed_};
   if (is_given()) return s;
   return with_mode(body_, std::move(s), mode_);
 }
 
 void StabilityMonitor::load(StateReader& reader, std::string const& name) {
-  constexpr std::size_t numbers = 11;
+  constexpr std::size_t numbers = 12;
   std::vector<double> state = this->state();
   if (is_given()) {
     reader.get(name, state);
@@ -290,6 +291,7 @@ void StabilityMonitor::load(StateReader& reader, std::string const& name) {
   energy_oscillation_ = state[8];
   recent_max_ = state[9];
   recent_max_age_ = state[10];
+  gradients_changed_ = state[11];
 }
 
 }  // namespace piola::nodal

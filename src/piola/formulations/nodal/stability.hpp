@@ -27,6 +27,8 @@ class StabilityMonitor {
 
   /// Registers the step dt [s] just taken, and repeats due measurements. `halvings`: number of halvings of the step.
   void update(double dt, int halvings);
+  /// Gradients have changed since the last measurement: the next one is due after a few steps.
+  void expect_change() { gradients_changed_ = 1; }
   /// Next step [s]: a fraction of the stability limit, smaller the faster strains change.
   double step() const;
   /// Step [s] after the first measurement in motion if strains change slowly.
@@ -79,6 +81,7 @@ class StabilityMonitor {
   double energy_oscillation_ = 0;       ///< largest indicator of look_at_unrest() [J/s2]
   double recent_max_ = 0;               ///< largest indicator since its last reset or confirmation
   double recent_max_age_ = 0;           ///< age of that, in equivalents of slow steps
+  double gradients_changed_ = 0;        ///< 1: since the last measurement
 };
 
 }  // namespace piola::nodal

@@ -25,11 +25,23 @@ struct Constants {
   double least_share;  ///< fraction of its volume ratio at the step's start that a point of a cell must keep
 };
 
+/// How the cells of a material fail.
+struct FailureConstants {
+  double strength = unbounded;  ///< tensile strength [Pa]; infinity: no cracks
+  double energy = 0;            ///< of a crack per area [J/m^2]
+  double modulus = 0;           ///< stress over strain across a crack [Pa]
+  double band = 0;              ///< width of the two rows of cells that a crack breaks [m]
+  bool damages = false;         ///< cells of damage 1 soften
+  double per_time = 0;          ///< softening of such cells [1/s]
+  double per_strain = 0;        ///< and by equivalent plastic strain; 0: by time
+};
+
 /// The particles of a body with one material: slots [first, last).
 struct MaterialRange {
   MaterialParameters material;
   Constants constants;
   Index first, last;
+  FailureConstants failure{};
 };
 
 /// Coefficients of the rates in viscous stresses that laws do not have, see Viscosity.
@@ -54,6 +66,7 @@ struct GradientList {
   double const* s = nullptr;
   double const* gradient = nullptr;  ///< G_ab [1/m], D per pair, and one more value at the end
   double const* reaction = nullptr;  ///< V_b G_ba [m^(D-1)], the same
+  double const* s_back = nullptr;    ///< the weight for b; s unless gradients change
 };
 
 /// Supports, loads and mirror planes of a body.
@@ -92,6 +105,7 @@ struct BodyState : Fields {
   /// The motion of a step by the pressure of the bulk modulus, and by the velocity that the first kick has left.
   void (*move_by_pressure)(ImplicitPressure& pressure, double dt) = nullptr;
   bool marks = false;         ///< forces at x also store F^T F in C_measured
+  bool refits = false;        ///< a step of length 0 takes over gradients that have changed, see FailureLayout
   double* partial = nullptr;  ///< room for the partial results of blocks
   FailureSlot* failure = nullptr;
   HaloPlan* halo = nullptr;       ///< nullptr if not distributed

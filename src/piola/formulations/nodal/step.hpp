@@ -128,7 +128,7 @@ class Step {
   void copy_histories(FieldRef const& viscous, FieldRef const& viscous_to, FieldRef const& solid,
                       FieldRef const& solid_to) const {
     copy_history(viscous, viscous_to, ViscousHistory<D>::size);
-    copy_history(solid, solid_to, HistoryLayout::point(Quadratic<D>::points, D));
+    copy_history(solid, solid_to, b_.history_values());
   }
   void copy_history(FieldRef const& from, FieldRef const& to, int values) const {
     if (from.data != nullptr) exec::for_each(b_.slots, CopyValues{read(from), write(to), values});
@@ -170,7 +170,10 @@ class Step {
     with_law(range.material, [&](auto const& law) { update_stress<Observed>(law, constants, slots, dt); });
     with_solid(range.material, [&](auto const& law) {
       using Cells = SolidCells<D>;
-      auto const wanted = Observed ? Cells::Wanted::as_left : dt < 0 ? Cells::Wanted::trial : Cells::Wanted::end;
+      auto const wanted = Observed    ? Cells::Wanted::as_left
+                          : b_.refits ? Cells::Wanted::refitted
+                          : dt < 0    ? Cells::Wanted::trial
+                                      : Cells::Wanted::end;
       update_stress<Observed>(Cells(law, range, b_, maximum(dt, 0.0), wanted), constants, slots, dt);
     });
     of_law_before.put_back();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
+#include "piola/formulations/nodal/body_materials.hpp"
 #include "piola/formulations/nodal/solver.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
 #include <algorithm>
@@ -10,15 +11,33 @@
 namespace piola::nodal {
 namespace {
 
-/// Damage is recorded here; nothing becomes of it.
-void warn_of_damage(std::vector<MaterialParameters> const& materials, BodyWarnings& warnings) {
-  bool damages = false;
+/// Spacings too coarse for the strength of a crack, and runs in which nothing fails.
+void warn_of_failure(Assembly const& assembly, std::size_t body, BodyWarnings& warnings) {
+  auto const& materials = materials_of(assembly, body);
+  if (assembly.minimises && std::any_of(materials.begin(), materials.end(), &fails)) {
+    warnings.add("material",
+                 "nothing fails in a run that relaxes by conjugate gradients - leave damage, spall and "
+                 "tensile_strength out, or give run.relax_method = \"kinetic_damping\"");
+    return;
+  }
+  ParticleSet const& set = assembly.particles;
+  double const width = width_of_crack(set.bodies[body], set.dimension);
   for (MaterialParameters const& material : materials)
-    with_solid(material, [&](auto const& law) { damages = damages || law.damages; });
-  if (damages)
-    warnings.add("material.damage",
-                 "damage is recorded, but does not weaken the material (nodal lets no particle fail) - set damage = "
-                 "\"none\" and spall = \"limit\", or take the formulation adaptle");
+    with_solid(material, [&](auto const& law) {
+      if (!(law.fracture.strength < unbounded)) return;
+      double const modulus = modulus_across_crack(set.dimension, law.kappa, law.mu);
+      CrackBand const band = crack_band(law.fracture.strength, law.fracture.energy, modulus, width);
+      if (!band.weakened) return;
+      double const enough =
+          law.fracture.energy * modulus / (least_ratio_of_band * law.fracture.strength * law.fracture.strength);
+      warnings.add(
+          "material.tensile_strength",
+          fmt::format("the particles are too coarse for tensile_strength: cracks take fracture_energy, but open "
+                      "at {} MPa instead of {} MPa - use spacings of {} mm or less, or mind that the strength "
+                      "is lower",
+                      number_text(band.strength / 1e6, 3), number_text(law.fracture.strength / 1e6, 3),
+                      number_text(enough * 1e3, 3)));
+    });
 }
 
 /// Whether a pressure differs along its face at any of a few times.
@@ -56,7 +75,7 @@ void add_setting_warnings(Assembly const& assembly, std::size_t body, BodyWarnin
   constexpr int few = 3;
   auto const& lattice = assembly.particles.bodies[body].lattice;
   int const across = *std::min_element(lattice.begin(), lattice.begin() + assembly.particles.dimension);
-  warn_of_damage(materials_of(assembly, body), warnings);
+  warn_of_failure(assembly, body, warnings);
   warn_of_following_pressures(assembly, body, warnings);
   double ratio = 0;
   for (MaterialParameters const& material : materials_of(assembly, body))

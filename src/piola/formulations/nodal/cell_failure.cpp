@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/nodal/cell_failure.hpp"
+#include "piola/domain/communicator.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace piola::nodal {
+namespace {
+
+/// A point of an intact cell, or the volume of a broken one, that is compressed further fails.
+constexpr double least_ratio = 0.1;
+/// Least volume ratio of a point of a cell whose gradients have changed.
+constexpr double least_refitted = 0.05;
+/// The particle of a cell that is not intact is detached when it is farther from where an intact cell expects it, in
+/// spacings.
+constexpr double tether = 1;
+
+}  // namespace
+
+CellFailure::CellFailure(NodalBody& body, Backend const& backend) : body_(body), backend_(backend) {
+  if (!body_.reference().refits) return;
+  near_crack_.resize(static_cast<std::size_t>(body_.slots()));
+  broken_.resize(near_crack_.size());
+}
+
+double& CellFailure::value(Index slot, int of) const {
+  return value_at(body_.state().history, slot, Fields::failure_value(of, body_.state().dimension));
+}
+
+CellCondition CellFailure::condition(Index slot) const {
+  return static_cast<CellCondition>(static_cast<int>(value(slot, FailureLayout::condition)));
+}
+
+/// By the stored gradients.
+double CellFailure::volume_ratio(Index slot) const {
+  int const D = body_.state().dimension, points = Fields::points(D);
+  double sum = 0;
+  for (int q = 0; q < points; ++q) {
+    Mat<3> F = identity<3>();
+    int const at = HistoryLayout::point(q, D) + HistoryLayout::F;
+    for (int c = 0; c < D * D; ++c) F(c / D, c % D) = value_at(body_.state().history, slot, at + c);
+    if (D == 2) F(2, 2) = value_at(body_.state().history, slot, at + 4);
+    sum += determinant(F) / points;
+  }
+  return sum * value(slot, FailureLayout::volume_factor);
+}
+
+/// Local cells that fail now, and particles that come off.
+CellFailure::Changes CellFailure::find() const {
+  Changes found;
+  for (Index i = body_.own().first; i < body_.own().last; ++i) {
+    switch (condition(i)) {
+      case CellCondition::intact:
+        if (value(i, FailureLayout::softening) >= 1 || !(value_at(body_.state().change, i, 1) > least_ratio))
+          found.push_back({i, CellCondition::broken});
+        else if (near_crack_[static_cast<std::size_t>(i)] != 0)
+          find_detached(i, found);
+        break;
+      case CellCondition::broken:
+        if (!(volume_ratio(i) > least_ratio)) found.push_back({i, CellCondition::detached});
+        break;
+      case CellCondition::detached: break;
+    }
+  }
+  return found;
+}
+
+/// Particles of broken cells that are farther than the tether from where the gradient of an intact cell has them.
+void CellFailure::find_detached(Index slot, Changes& found) const {
+  auto const& s = body_.state();
+  auto const& r = body_.reference();
+  int const D = s.dimension, points = Fields::points(D);
+  double const h = *std::min_element(body_.body().spacing.begin(), body_.body().spacing.begin() + D);
+  for (auto k = r.begin[static_cast<std::size_t>(slot)]; k < r.begin[static_cast<std::size_t>(slot) + 1]; ++k) {
+    auto const at = static_cast<std::size_t>(k);
+    Index const b = r.neighbour[at], owner = r.owner(b);
+    if (!(r.weight[at] > 0) || broken_[static_cast<std::size_t>(owner)] == 0) continue;
+    double square = 0;
+    for (int c = 0; c < D; ++c) {
+      double apart = value_at(s.x, b, c) - value_at(s.x, slot, c);
+      for (int J = 0; J < D; ++J) {
+        double F = 0;
+        for (int q = 0; q < points; ++q)
+          F += value_at(s.history, slot, HistoryLayout::point(q, D) + HistoryLayout::F + c * D + J) / points;
+        auto const axis = static_cast<std::size_t>(J);
+        apart -= F * (value_at(s.X, b, J) - value_at(s.X, slot, J)) * body_.body().spacing[axis];
+      }
+      square += apart * apart;
+    }
+    if (!(square < tether * tether * h * h)) found.push_back({owner, CellCondition::detached});
+  }
+}
+
+/// The changes that all ranks have found, in ascending order, the last condition of each slot.
+CellFailure::Changes CellFailure::over_ranks(Changes found) const {
+  if (body_.shared()) {
+    std::vector<Index> mine;
+    for (Refits::Change const& change : found)
+      mine.insert(mine.end(), {change.slot, static_cast<Index>(change.condition)});
+    found.clear();
+    auto const all = comm::alltoall(std::vector<std::vector<Index>>(static_cast<std::size_t>(comm::size()), mine));
+    for (std::vector<Index> const& of_rank : all)
+      for (std::size_t k = 0; k < of_rank.size(); k += 2)
+        found.push_back({of_rank[k], static_cast<CellCondition>(of_rank[k + 1])});
+  }
+  std::sort(found.begin(), found.end(), [](auto const& a, auto const& b) {
+    return a.slot != b.slot ? a.slot < b.slot : a.condition > b.condition;
+  });
+  auto const last =
+      std::unique(found.begin(), found.end(), [](auto const& a, auto const& b) { return a.slot == b.slot; });
+  found.erase(last, found.end());
+  return found;
+}
+
+/// Stores the condition of a local cell. A detached cell is at rest in its reference shape.
+void CellFailure::put(Refits::Change const& change) const {
+  auto const& s = body_.state();
+  int const D = s.dimension;
+  if (change.slot < body_.own().first || change.slot >= body_.own().last) return;
+  value(change.slot, FailureLayout::condition) = static_cast<double>(change.condition);
+  if (change.condition != CellCondition::detached) return;
+  value(change.slot, FailureLayout::volume_factor) = 1;
+  value_at(s.history, change.slot, HistoryLayout::pressure) = 0;
+  value_at(s.history, change.slot, HistoryLayout::shock_pressure) = 0;
+  for (int q = 0; q < Fields::points(D); ++q) {
+    int const at = HistoryLayout::point(q, D) + HistoryLayout::F;
+    for (int c = 0; c < D * D; ++c) value_at(s.history, change.slot, at + c) = c % (D + 1) == 0 ? 1 : 0;
+    if (D == 2) value_at(s.history, change.slot, at + 4) = 1;
+  }
+}
+
+/// Copies the sums of gradients of a local cell, which the set-up data have, to the fields.
+void CellFailure::put_gradients(Index slot) const {
+  auto const& s = body_.state();
+  auto const& r = body_.reference();
+  int const D = s.dimension, second = Fields::second(D);
+  auto const copy = [&](LazyZeroArray<double> const& from, FieldRef const& to, int size) {
+    for (int c = 0; c < size; ++c)
+      value_at(to, slot, c) =
+          from[static_cast<std::size_t>(slot) * static_cast<std::size_t>(size) + static_cast<std::size_t>(c)];
+  };
+  copy(r.own, s.own, D + second);
+  copy(r.k, s.k, Fields::terms(D) * second);
+  if (s.has.axisymmetric) copy(r.hoop, s.hoop, static_cast<int>(HoopSums::size));
+}
+
+CellFailure::Changes CellFailure::set(Changes const& changes) {
+  for (Refits::Change const& change : changes) {
+    put(change);
+    broken_[static_cast<std::size_t>(change.slot)] = 1;
+  }
+  Refits::Found const found = body_.reference().refits->set(changes);
+  for (Index const slot : found.changed) {
+    put_gradients(slot);
+    near_crack_[static_cast<std::size_t>(slot)] = 1;
+    value(slot, FailureLayout::refitted) = 1;
+  }
+  Changes more;
+  for (Index const slot : found.unsolvable)
+    more.push_back({slot, condition(slot) == CellCondition::intact ? CellCondition::broken : CellCondition::detached});
+  for (Index const slot : found.changed) changed_.push_back(slot);
+  return more;
+}
+
+/// Takes over the gradients that have changed, and computes the accelerations with them.
+void CellFailure::take_over() {
+  FailureSlot failure;
+  BodyState state = body_.state();
+  state.failure = &failure;
+  state.refits = true;
+  backend_.step(state, 0);
+}
+
+bool CellFailure::update() {
+  if (!body_.reference().refits) return false;
+  bool any = false;
+  for (Changes changes = over_ranks(find()); !changes.empty(); changes = over_ranks(std::move(changes))) {
+    any = true;
+    changed_.clear();
+    Changes more = set(changes);
+    take_over();
+    for (Index const slot : changed_)
+      if (condition(slot) != CellCondition::detached && !(value_at(body_.state().change, slot, 1) > least_refitted))
+        more.push_back({slot, CellCondition::detached});
+    changes = std::move(more);
+  }
+  return any;
+}
+
+void CellFailure::load() {
+  if (!body_.reference().refits) return;
+  Changes changes;
+  for (Index i = body_.own().first; i < body_.own().last; ++i)
+    if (condition(i) != CellCondition::intact) changes.push_back({i, condition(i)});
+  changes = over_ranks(std::move(changes));
+  if (changes.empty()) return;
+  set(changes);
+  for (Index i = body_.own().first; i < body_.own().last; ++i) value(i, FailureLayout::refitted) = 0;
+}
+
+}  // namespace piola::nodal

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/formulations/nodal/fields.hpp"
+#include "piola/formulations/nodal/local_fits.hpp"
+#include "piola/neighbours/cell_grid.hpp"
+#include <vector>
+
+namespace piola::nodal {
+
+/// Conditions of the cells of a body, and which lines between particles cracks cross. All lengths in spacings. Theory:
+/// docs/theory/nodal.md, "Failure".
+class CrackLines {
+ public:
+  /// Keeps a reference to X, which must outlive this. With mirror planes X has the images, too.
+  explicit CrackLines(Points const& X);
+
+  CellCondition condition(std::size_t a) const { return condition_[a]; }
+  bool is_intact(std::size_t a) const { return condition_[a] == CellCondition::intact; }
+  /// Whether some cell is not intact.
+  bool any() const { return any_; }
+  void set(std::size_t a, CellCondition condition);
+  /// Whether the facet of cell a with a neighbour is surface, where the fit of a holds: an intact cell has such facets
+  /// with cells that are not intact, a broken one with detached cells.
+  bool is_face(std::size_t a, std::size_t neighbour) const {
+    return condition_[neighbour] > (is_intact(a) ? CellCondition::intact : CellCondition::broken);
+  }
+  /// Whether a fit of one of two particles must not use the other: the other is detached, or the line between them is
+  /// longer than that of nearest neighbours and passes a particle whose cell is not intact.
+  bool block(std::size_t a, std::size_t b) const;
+  /// Calls f(a) for the particles nearer to another one than `reach`, at most the largest support radius.
+  template <class F>
+  void each_near(std::size_t of, double reach, F const& f) const {
+    grid_.visit(X_[of], [&](Index other) {
+      auto const a = static_cast<std::size_t>(other);
+      if (square_of_distance(of, a) < reach * reach) f(a);
+    });
+  }
+
+ private:
+  double square_of_distance(std::size_t a, std::size_t b) const;
+
+  Points const& X_;
+  std::vector<CellCondition> condition_;
+  CellGrid grid_;
+  bool any_ = false;
+};
+
+}  // namespace piola::nodal

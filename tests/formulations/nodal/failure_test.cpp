@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cells that fail under the nodal formulation.
+#include "piola/formulations/nodal/crack_lines.hpp"
+#include "piola/formulations/nodal/refits.hpp"
+#include "formulations/nodal/nodal_bodies.hpp"
+#include "support/key_words.hpp"
+
+namespace piola::testing {
+namespace {
+
+using test::expect_words;
+
+void set(MaterialParameters& m, std::string_view name, double value) {
+  auto const& parameters = laws()[static_cast<std::size_t>(m.law)].parameters;
+  auto const at = std::find_if(parameters.begin(), parameters.end(), [&](auto const& p) { return p.name == name; });
+  ASSERT_NE(at, parameters.end()) << name;
+  m.value[at - parameters.begin()] = value;
+}
+
+constexpr double length = 0.1, width = 0.02, speed = 0.05, strength = 3e6, toughness = 50;
+
+MaterialParameters stone(double of_strength = strength) {
+  MaterialParameters m = material("elastic", 2450, 32e9, 0);
+  set(m, "spall_pressure", unbounded);
+  set(m, "tensile_strength", of_strength);
+  set(m, "fracture_energy", toughness);
+  return m;
+}
+
+/// A bar of brittle stone along x, weaker by a tenth in two rows of its middle, that is pulled apart.
+Assembly pulled_bar(int dimension, double jitter = 0) {
+  ShapeSpec shape;
+  shape.dimension = dimension;
+  shape.max = {length, width, dimension > 2 ? width : 0};
+  shape.particles = {21, 5, 5};
+  shape.jitter = jitter;
+  ParticleSet set;
+  fill(shape, "bar", set);
+  Assembly a = nodal_body(std::move(set), stone());
+  give_velocity(a, [](Point const& X) { return Point{speed * (2 * X[0] / length - 1), 0, 0}; });
+  support(a, {true, false, false}, [](Point const& X) { return X[0] < 0.003; }).velocity =
+      formulas({"-0.05", "0", "0"});
+  support(a, {true, false, false}, [](Point const& X) { return X[0] > length - 0.003; }).velocity =
+      formulas({"0.05", "0", "0"});
+  std::vector<int>& part = a.particles.part.own();
+  for (auto const& X : a.particles.X.seen()) part.push_back(X[0] > 0.0476 && X[0] < 0.0574 ? 1 : 0);
+  a.parts = {{stone(0.9 * strength)}};
+  return a;
+}
+
+double column(Formulation const& f, std::string_view wanted) {
+  for (auto const& [name, value] : f.diagnose().more)
+    if (name == wanted) return value;
+  ADD_FAILURE() << "no column is named " << wanted;
+  return 0;
+}
+
+/// Advances to `end` [s] from `time` [s].
+void advance_to(Formulation& f, double time, double end) {
+  while (time < end) {
+    double const dt = std::min(f.stable_time_step(), end - time);
+    f.step(time, dt);
+    time += dt;
+  }
+  EXPECT_FALSE(f.failure().has_value());
+}
+
+struct Bar {
+  int dimension;
+  double jitter;
+};
+
+/// Two rows of cells break, and softening takes the fracture energy per area of the section, with the energy balance of
+/// steps that nothing breaks in.
+TEST(NodalFailure, CrackTakesTheFractureEnergy) {
+  for (Bar const bar : {Bar{2, 0}, Bar{2, 0.2}, Bar{3, 0}}) {
+    auto const f = make_formulation(pulled_bar(bar.dimension, bar.jitter));
+    double const section = bar.dimension == 2 ? width : width * width;
+    double const before = f->diagnose().total_energy();
+    advance_to(*f, 0, 500e-6);
+    EXPECT_EQ(column(*f, "failed_particles"), bar.dimension == 2 ? 10 : 50);
+    EXPECT_NEAR(column(*f, "crack_area"), section, bar.jitter > 0 ? 0.1 * section : 1e-9 * section);
+    EXPECT_NEAR(column(*f, "fracture_energy"), toughness * section, 0.06 * toughness * section);
+    Diagnostics const d = f->diagnose();
+    EXPECT_NEAR(d.total_energy() - before, d.external_work, 3e-4 * d.external_work);
+  }
+}
+
+TEST(NodalFailure, HasTheSameBitsOnThreadsAndFromCheckpoints) {
+  Assembly const a = pulled_bar(2, 0.2);
+  auto const run = [&](std::vector<double> const& stops) {
+    auto f = make_formulation(a);
+    double time = 0;
+    int steps = 0;
+    for (double const stop : stops) {
+      SavedState const kept = saved(*f);
+      f = make_formulation(a);
+      SavedState copy = kept;
+      f->load(copy);
+      for (; time < stop; ++steps) {
+        double const dt = f->stable_time_step();
+        f->step(time, dt);
+        time += dt;
+      }
+    }
+    EXPECT_GT(column(*f, "failed_particles"), 0);
+    return saved(*f).values;
+  };
+  auto const alone = [&] {
+    Threads const one(1);
+    return run({400e-6});
+  }();
+  Threads const three(3);
+  EXPECT_EQ(run({400e-6}), alone);
+  EXPECT_EQ(run({300e-6, 330e-6, 400e-6}), alone);
+}
+
+/// Whatever has failed around, gradients of intact cells are exact for linear fields, and depend on the conditions
+/// alone, not on the order in which cells have failed.
+TEST(NodalFailure, GradientsFollowTheConditionsOfCells) {
+  for (int const dimension : {2, 3}) {
+    auto const D = static_cast<std::size_t>(dimension);
+    Assembly const a = nodal_body(brick(dimension, 0.2, {9, 8, 7}), stone());
+    SetUpBody at_once(a, 0.3, true), one_by_one(a, 0.3, true);
+    nodal::Refits::Change const broken[]{{static_cast<Index>(D == 2 ? 30 : 230), nodal::CellCondition::broken},
+                                         {static_cast<Index>(D == 2 ? 31 : 231), nodal::CellCondition::broken},
+                                         {static_cast<Index>(D == 2 ? 40 : 240), nodal::CellCondition::detached}};
+    std::vector<double> const before = at_once.reference.gradient;
+    auto const found = at_once.reference.refits->set({broken[0], broken[1], broken[2]});
+    for (std::size_t const k : {2u, 0u, 1u}) one_by_one.reference.refits->set({broken[k]});
+    nodal::Reference const& r = at_once.reference;
+    EXPECT_FALSE(found.changed.empty());
+    EXPECT_NE(r.gradient, before);
+    EXPECT_EQ(r.gradient, one_by_one.reference.gradient);
+    EXPECT_EQ(r.reaction, one_by_one.reference.reaction);
+    EXPECT_EQ(r.weight, one_by_one.reference.weight);
+    EXPECT_EQ(r.back_weight, one_by_one.reference.back_weight);
+    for (Index const slot : found.changed) {
+      if (slot == broken[2].slot) continue;  // detached
+      double sum[3][3]{};
+      for (auto k = static_cast<std::size_t>(r.begin[slot]); k < static_cast<std::size_t>(r.begin[slot + 1]); ++k)
+        for (std::size_t c = 0; c < D; ++c)
+          for (std::size_t J = 0; J < D; ++J)
+            sum[c][J] += (at_once.X(r.neighbour[k])[c] - at_once.X(slot)[c]) * r.gradient[k * D + J];
+      for (std::size_t c = 0; c < D; ++c)
+        for (std::size_t J = 0; J < D; ++J) ASSERT_NEAR(sum[c][J], c == J ? 1 : 0, 1e-9) << dimension << ' ' << slot;
+    }
+  }
+}
+
+/// On a line of particles a broken cell hides what is behind it, except from nearest neighbours.
+TEST(NodalFailure, BrokenCellsHideWhatIsBehindThem) {
+  nodal::Points const X{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  nodal::CrackLines lines(X);
+  EXPECT_FALSE(lines.block(0, 2));
+  lines.set(1, nodal::CellCondition::broken);
+  EXPECT_TRUE(lines.block(0, 2));
+  EXPECT_TRUE(lines.block(2, 0));
+  EXPECT_FALSE(lines.block(0, 1));
+  EXPECT_FALSE(lines.block(0, 3));
+  lines.set(4, nodal::CellCondition::detached);
+  EXPECT_TRUE(lines.block(0, 4));
+}
+
+TEST(NodalFailure, RefusesNumbersThatDoNotBelongTogether) {
+  auto const refused = [](auto const& change) {
+    MaterialParameters m = stone();
+    Assembly a = nodal_body(brick(2), m);
+    change(a, m);
+    a.materials.assign(1, m);
+    return refusal(a);
+  };
+  expect_words(refused([](Assembly&, MaterialParameters& m) { set(m, "fracture_energy", 0); }),
+               {"tensile_strength", "fracture_energy", "both"});
+  expect_words(refused([](Assembly&, MaterialParameters& m) { set(m, "fracture_displacement", 1e-3); }),
+               {"fracture_displacement", "damage"});
+  expect_words(refused([](Assembly& a, MaterialParameters&) { choose(a, "fluctuation_viscosity", 0.05); }),
+               {"fluctuation_viscosity", "tensile_strength"});
+  expect_words(refused([](Assembly& a, MaterialParameters&) {
+                 a.formulations[0] = {"adaptle", {}, {}};
+               }),
+               {"tensile_strength", "nodal"});
+}
+
+}  // namespace
+}  // namespace piola::testing
