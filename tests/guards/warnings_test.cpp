@@ -210,7 +210,16 @@ TEST(Warnings, MaterialsThatCannotFail) {
   std::string const kept = ", description = \"total_lagrangian\"";
   EXPECT_EQ(about("nothing follows from it", warnings(adaptle(kept, "", failing))), "") << "stress is released";
   EXPECT_NE(about("nothing follows from it", warnings(adaptle(kept + ", failed = \"keep\"", "", failing))), "");
-  EXPECT_NE(about("does not weaken", warnings(block("name = \"nodal\"", failing))), "");
+  EXPECT_NE(about("too coarse for tensile_strength",
+                  warnings(block("name = \"nodal\"",
+                                 "law = \"elastic\", poissons_ratio = 0.3, tensile_strength = \"500 MPa\", "
+                                 "fracture_energy = \"1 J/m^2\""))),
+            "");
+  EXPECT_EQ(about("too coarse for tensile_strength",
+                  warnings(block("name = \"nodal\"",
+                                 "law = \"elastic\", poissons_ratio = 0.3, tensile_strength = \"5 MPa\", "
+                                 "fracture_energy = \"1 kJ/m^2\""))),
+            "");
 }
 
 TEST(Warnings, PoissonsRatiosThatLock) {

@@ -106,7 +106,7 @@ inline MaterialParameters sample_metal(std::string_view law, std::string_view eo
                              {"melting_gamma", 2},
                              {"hugoniot_elastic_limit", 5.95e9},
                              {"pressure_at_limit", 2.92e9},
-                             {"tensile_strength", 8.5e9},
+                             {"tensile_strength", law == "johnson_holmquist" ? 8.5e9 : unbounded},
                              {"intact_strength", 0.93},
                              {"intact_exponent", 0.77},
                              {"fractured_strength", 0.088},

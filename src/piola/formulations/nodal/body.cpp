@@ -26,6 +26,8 @@ struct StepReduction {
 
 /// A step is taken in at most two to this power parts.
 constexpr int most_halvings = 8;
+/// The same where cells may fail.
+constexpr int most_halvings_of_failure = 3;
 /// A point of a cell that loses more than the rest of its volume in a step is crushed faster than the step can follow.
 constexpr double least_share = 0.5;
 
@@ -177,18 +179,33 @@ void NodalBody::make_pressure(Backend const& backend) {
 int NodalBody::step(Backend const& backend, double time, double dt, int halvings) {
   backend.keep(state_);
   boundary_->begin_step(state_, time, dt);
-  state_.constants.least_share = halvings < most_halvings ? least_share : 0;
+  int const most = on_crushed_ ? most_halvings_of_failure : most_halvings;
+  state_.constants.least_share = halvings < most ? least_share : 0;
   backend.step(state_, dt);
   if (state_.has.axisymmetric) record_behind_axis();
   agree_on_step(backend.largest_change(state_));
-  if (!failed() || halvings == most_halvings) {
+  bool const stuck = failed() && halvings == most;
+  std::vector<Index> const inverted = stuck && on_crushed_ ? crushed() : std::vector<Index>{};
+  if (!failed() || (stuck && !on_crushed_)) {
     boundary_->end_step(state_);
     return 0;
   }
   backend.restore(state_);
   failure_.clear();
+  if (stuck) {
+    on_crushed_(inverted);
+    return step(backend, time, dt, halvings);
+  }
   int const first = step(backend, time, 0.5 * dt, halvings + 1);
   return 1 + first + (failed() ? 0 : step(backend, time + 0.5 * dt, 0.5 * dt, halvings + 1));
+}
+
+/// Local cells with an inverted point.
+std::vector<Index> NodalBody::crushed() const {
+  std::vector<Index> slots;
+  for (Index i = own().first; i < std::min(own().last, order_.particles); ++i)
+    if (!(value(state_.change, i, 1) > 0)) slots.push_back(i);
+  return slots;
 }
 
 /// A hole of the body has closed, or the step was too large.

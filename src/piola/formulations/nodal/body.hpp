@@ -11,6 +11,7 @@
 #include "piola/formulations/nodal/smoothing.hpp"
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/math/tensor.hpp"
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -58,9 +59,11 @@ class NodalBody {
   }
 
   /// Advances from `time` to time + dt, with supports and loads. If a cell is inverted, repeats the step in two halves,
-  /// up to a few times; the failure remains if that does not help. Returns the number of halvings. `halvings`: of the
-  /// whole step before this part of it.
+  /// up to a few times; if that does not help, the failure remains, or the cell fails where on_crushed() is given.
+  /// Returns the number of halvings. `halvings`: of the whole step before this part of it.
   int step(Backend const& backend, double time, double dt, int halvings = 0);
+  /// What becomes of local cells that are inverted however short the step, at the state before it. Collective.
+  void on_crushed(std::function<void(std::vector<Index> const& slots)> act) { on_crushed_ = std::move(act); }
   /// Multiplies the velocities that no support prescribes; the lost kinetic energy is added to damping_loss().
   void damp(double factor);
   /// Largest change of a strain at the last step since the last measurement of the step limit.
@@ -116,6 +119,7 @@ class NodalBody {
   void make_pressure(Backend const& backend);
   void record_behind_axis();
   void agree_on_step(double change);
+  std::vector<Index> crushed() const;
   bool failed() const { return failure_.index < order_.particles; }
 
   Body body_;
@@ -135,8 +139,9 @@ class NodalBody {
   double damping_loss_ = 0, largest_change_ = 0;
   bool observed_ = false;
   FailureSlot failure_;
-  std::unique_ptr<BodyHalo> halo_;                       ///< nullptr on one rank
-  std::unique_ptr<ImplicitPressure> implicit_pressure_;  ///< nullptr: explicit
+  std::function<void(std::vector<Index> const&)> on_crushed_;  ///< may be empty
+  std::unique_ptr<BodyHalo> halo_;                             ///< nullptr on one rank
+  std::unique_ptr<ImplicitPressure> implicit_pressure_;        ///< nullptr: explicit
 };
 
 }  // namespace piola::nodal

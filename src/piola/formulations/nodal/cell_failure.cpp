@@ -9,11 +9,11 @@ namespace {
 
 /// A point of an intact cell, or the volume of a broken one, that is compressed further fails.
 constexpr double least_ratio = 0.1;
-/// Least volume ratio of a point of a cell whose gradients have changed.
-constexpr double least_refitted = 0.05;
 /// The particle of a cell that is not intact is detached when it is farther from where an intact cell expects it, in
 /// spacings.
 constexpr double tether = 1;
+/// Contact takes the motion of a surface point from the particles within this distance, in spacings.
+constexpr double host_reach = 1.6;
 
 }  // namespace
 
@@ -21,6 +21,8 @@ CellFailure::CellFailure(NodalBody& body, Backend const& backend) : body_(body),
   if (!body_.reference().refits) return;
   near_crack_.resize(static_cast<std::size_t>(body_.slots()));
   broken_.resize(near_crack_.size());
+  lost_.resize(near_crack_.size());
+  body_.on_crushed([this](std::vector<Index> const& slots) { crush(slots); });
 }
 
 double& CellFailure::value(Index slot, int of) const {
@@ -120,6 +122,7 @@ void CellFailure::put(Refits::Change const& change) const {
   value(change.slot, FailureLayout::condition) = static_cast<double>(change.condition);
   if (change.condition != CellCondition::detached) return;
   value(change.slot, FailureLayout::volume_factor) = 1;
+  value(change.slot, FailureLayout::refitted) = 0;
   value_at(s.history, change.slot, HistoryLayout::pressure) = 0;
   value_at(s.history, change.slot, HistoryLayout::shock_pressure) = 0;
   for (int q = 0; q < Fields::points(D); ++q) {
@@ -144,10 +147,19 @@ void CellFailure::put_gradients(Index slot) const {
   if (s.has.axisymmetric) copy(r.hoop, s.hoop, static_cast<int>(HoopSums::size));
 }
 
+void CellFailure::lose_surfaces(Index detached) {
+  for (Index const slot : body_.reference().refits->near(detached, host_reach)) {
+    char& lost = lost_[static_cast<std::size_t>(slot)];
+    lost_count_ += lost != 0 ? 0 : 1;
+    lost = 1;
+  }
+}
+
 CellFailure::Changes CellFailure::set(Changes const& changes) {
   for (Refits::Change const& change : changes) {
     put(change);
     broken_[static_cast<std::size_t>(change.slot)] = 1;
+    if (change.condition == CellCondition::detached) lose_surfaces(change.slot);
   }
   Refits::Found const found = body_.reference().refits->set(changes);
   for (Index const slot : found.changed) {
@@ -171,20 +183,28 @@ void CellFailure::take_over() {
   backend_.step(state, 0);
 }
 
-bool CellFailure::update() {
-  if (!body_.reference().refits) return false;
+bool CellFailure::follow(Changes changes) {
   bool any = false;
-  for (Changes changes = over_ranks(find()); !changes.empty(); changes = over_ranks(std::move(changes))) {
+  for (changes = over_ranks(std::move(changes)); !changes.empty(); changes = over_ranks(std::move(changes))) {
     any = true;
     changed_.clear();
     Changes more = set(changes);
     take_over();
     for (Index const slot : changed_)
-      if (condition(slot) != CellCondition::detached && !(value_at(body_.state().change, slot, 1) > least_refitted))
-        more.push_back({slot, CellCondition::detached});
+      if (value(slot, FailureLayout::refitted) > 0) more.push_back({slot, CellCondition::detached});
     changes = std::move(more);
   }
   return any;
+}
+
+bool CellFailure::update() { return body_.reference().refits && follow(find()); }
+
+void CellFailure::crush(std::vector<Index> const& slots) {
+  Changes changes;
+  for (Index const slot : slots)
+    changes.push_back(
+        {slot, condition(slot) == CellCondition::intact ? CellCondition::broken : CellCondition::detached});
+  follow(std::move(changes));
 }
 
 void CellFailure::load() {

@@ -11,11 +11,19 @@ class CellFailure {
  public:
   /// Keeps references to both. Does nothing for a body whose cells cannot fail.
   CellFailure(NodalBody& body, Backend const& backend);
+  CellFailure(CellFailure const&) = delete;
+  CellFailure& operator=(CellFailure const&) = delete;
 
   /// After a step. Returns whether gradients have changed. Collective.
   bool update();
+  /// Lets local cells fail, at the start of a step that crushes them however short it is. Collective.
+  void crush(std::vector<Index> const& slots);
   /// After the state of the body was loaded. Collective.
   void load();
+  /// Particles that have lost their surface points: detached ones, and those near them, whose motion contact takes from
+  /// that of detached ones, too. On all ranks alike.
+  std::int64_t surfaces_lost() const { return lost_count_; }
+  bool has_lost_surface(Index slot) const { return !lost_.empty() && lost_[static_cast<std::size_t>(slot)] != 0; }
 
  private:
   using Changes = std::vector<Refits::Change>;
@@ -29,14 +37,19 @@ class CellFailure {
   void put(Refits::Change const& change) const;
   /// Returns the cells that fail by it.
   Changes set(Changes const& changes);
+  /// Sets the changes of all ranks, and those that follow. Returns whether there was one. Collective.
+  bool follow(Changes changes);
   void put_gradients(Index slot) const;
+  void lose_surfaces(Index detached);
   void take_over();
 
   NodalBody& body_;
   Backend const& backend_;
   std::vector<char> near_crack_;  ///< per slot, of local cells: gradients have changed
   std::vector<char> broken_;      ///< per slot, on all ranks alike: the cell is not intact
-  std::vector<Index> changed_;    ///< local slots whose gradients the last change has changed
+  std::vector<char> lost_;        ///< per slot, on all ranks alike
+  std::int64_t lost_count_ = 0;
+  std::vector<Index> changed_;  ///< local slots whose gradients the last change has changed
 };
 
 }  // namespace piola::nodal

@@ -68,6 +68,15 @@ Refits::Found RefitsOf<D>::set(std::vector<Change> const& changes) {
   return found;
 }
 
+template <int D>
+std::vector<Index> RefitsOf<D>::near(Index slot, double reach) const {
+  std::vector<Index> found;
+  cracks_.each_near(static_cast<std::size_t>(slot), reach, [&](std::size_t a) {
+    if (a < scaled_.particles) found.push_back(static_cast<Index>(a));
+  });
+  return found;
+}
+
 template class RefitsOf<1>;
 template class RefitsOf<2>;
 template class RefitsOf<3>;

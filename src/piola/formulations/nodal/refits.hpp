@@ -37,6 +37,7 @@ class RefitsOf final : public Refits {
   }
 
   Found set(std::vector<Change> const& changes) override;
+  std::vector<Index> near(Index slot, double reach) const override;
 
  private:
   std::vector<std::size_t> set_conditions(std::vector<Change> const& changes);

@@ -82,6 +82,8 @@ class Refits {
     std::vector<Index> unsolvable;  ///< local slots whose neighbours determine no gradient: these cells fail, too
   };
   virtual Found set(std::vector<Change> const& changes) = 0;
+  /// Slots of the particles nearer to that of `slot` than `reach` spacings, itself included.
+  virtual std::vector<Index> near(Index slot, double reach) const = 0;
 };
 
 /// The undeformed body for the loops: values per slot, in the order of Fields. On ranks: of local slots, and V and X of

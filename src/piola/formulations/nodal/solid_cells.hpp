@@ -196,20 +196,22 @@ class SolidCells {
   }
 
   /// Takes over gradients that have changed: stress and density stay, and the volume factor makes up for the change of
-  /// the volume ratio.
+  /// the volume ratio. A cell that the new gradients see crushed keeps its mark.
   template <class Energy>
   PIOLA_FN void refit(Index i, Cell& cell, Energy const& energy) const {
     int const mark = Fields::failure_value(FailureLayout::refitted, D);
-    auto const changed = history_.scalar<Lanes>(i, mark) > 0.5;
-    if (!any(changed)) return;
-    Lanes before = Lanes(0.0);
+    auto const marked = history_.scalar<Lanes>(i, mark) > 0.5;
+    if (!any(marked)) return;
+    Lanes least = energy.J[0], before = Lanes(0.0);
+    for (int q = 1; q < points; ++q) least = minimum(least, energy.J[q]);
+    auto const changed = marked && least > least_ratio;
     for (int q = 0; q < points; ++q) {
       before = before + (1.0 / points) * determinant(cell.F[q]);
       for (int c = 0; c < 9; ++c) cell.F[q].c[c] = select(changed, energy.F[q].c[c], cell.F[q].c[c]);
     }
     cell.volume_factor = select(changed, cell.volume_factor * before / energy.mean_J, cell.volume_factor);
     for (int l = 0; l < lane_count; ++l) {
-      if (!owns(i + l) || !(history_.scalar<double>(i + l, mark) > 0.5)) continue;
+      if (!owns(i + l) || !(history_.scalar<double>(i + l, mark) > 0.5) || !(lane(least, l) > least_ratio)) continue;
       history_out_.scalar(i + l, lane(cell.volume_factor, l), Fields::failure_value(FailureLayout::volume_factor, D));
       history_out_.scalar(i + l, 0.0, mark);
       for (int q = 0; q < points; ++q) {

@@ -31,7 +31,7 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
       }
       bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, backend_));
       monitors_.push_back(std::make_unique<StabilityMonitor>(*bodies_.back(), backend_));
-      failures_.emplace_back(*bodies_.back(), backend_);
+      failures_.push_back(std::make_unique<CellFailure>(*bodies_.back(), backend_));
       if (assembly.minimises) descents_.emplace_back(*bodies_.back(), backend_);
     }
     if (assembly.coupled) slots_ = SlotsById(set_, bodies_);
@@ -63,7 +63,7 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
       bodies_[k]->set_observed(false);
       int const halvings = bodies_[k]->step(backend_, time, dt);
       repeated_ += halvings;
-      if (bodies_[k]->state().failure->index >= bodies_[k]->particles() && failures_[k].update())
+      if (bodies_[k]->state().failure->index >= bodies_[k]->particles() && failures_[k]->update())
         monitors_[k]->expect_change();
       monitors_[k]->update(dt, halvings);
     }
@@ -79,6 +79,17 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
   }
   void add_velocities(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) override;
 
+  std::int64_t surfaces_lost() const override {
+    std::int64_t all = 0;
+    for (auto const& failure : failures_) all += failure->surfaces_lost();
+    return all;
+  }
+  bool has_lost_surface(std::int64_t id) const override {
+    bool lost = false;
+    slots_.visit(std::array{id},
+                 [&](std::size_t, std::size_t body, Index slot) { lost = failures_[body]->has_lost_surface(slot); });
+    return lost;
+  }
   void read_face_areas(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> normals,
                        std::span<double> areas) const override {
     slots_.visit(ids, [&](std::size_t k, std::size_t body, Index slot) {
@@ -130,8 +141,8 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
   }
 
   Backend const& backend_;
-  std::vector<CellFailure> failures_;    ///< per body
-  std::vector<EnergyDescent> descents_;  ///< per body, if the run minimises
+  std::vector<std::unique_ptr<CellFailure>> failures_;  ///< per body
+  std::vector<EnergyDescent> descents_;                 ///< per body, if the run minimises
   bool ends_step_ = false;  ///< whether the next add_velocities() ends the last step or begins the next one
   double repeated_ = 0;     ///< steps that were taken again in halves
 };
@@ -248,7 +259,7 @@ void Solver::load(StateReader& reader) {
     NodalBody& body = *bodies_[k];
     body.set_observed(false);
     load_fields(reader, k);
-    failures_[k].load();
+    failures_[k]->load();
     monitors_[k]->load(reader, fmt::format("body{}_step_limit", k));
     if (!descents_.empty()) descents_[k].load(reader, fmt::format("body{}_direction", k));
     std::array<double, 2> energy_totals{};

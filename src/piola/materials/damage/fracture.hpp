@@ -24,8 +24,9 @@ struct Fracture {
   double energy;        ///< [J/m^2]
   double displacement;  ///< [m]; 0: none
 
-  /// v: values in the order of `parameters`.
-  PIOLA_FN explicit Fracture(double const* v) : strength(v[0]), energy(v[1]), displacement(v[2]) {}
+  /// v: values in the order of `parameters`; a strength of 0 is none.
+  PIOLA_FN explicit Fracture(double const* v)
+      : strength(v[0] > 0 ? v[0] : unbounded), energy(v[1]), displacement(v[2]) {}
 };
 
 /// Softening of a band of material that a crack crosses (Z. P. Bazant, B. H. Oh, Materiaux et Constructions 16, 1983,
