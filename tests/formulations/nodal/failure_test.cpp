@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cells that fail under the nodal formulation.
 #include "piola/formulations/nodal/crack_lines.hpp"
+#include "piola/formulations/nodal/fragment_contact.hpp"
 #include "piola/formulations/nodal/refits.hpp"
 #include "formulations/nodal/nodal_bodies.hpp"
 #include "support/key_words.hpp"
@@ -160,6 +161,44 @@ TEST(NodalFailure, BrokenCellsHideWhatIsBehindThem) {
   EXPECT_FALSE(lines.block(0, 3));
   lines.set(4, nodal::CellCondition::detached);
   EXPECT_TRUE(lines.block(0, 4));
+}
+
+/// Pieces that come near push each other apart by minus the derivative of an energy, and keep both momenta. Particles
+/// that were near in the reference configuration do not.
+TEST(NodalFailure, PiecesPushEachOtherApart) {
+  for (int const dimension : {2, 3}) {
+    Assembly const a = nodal_body(brick(dimension, 0, {9, 8, 7}), stone());
+    nodal::Backend const& backend = *nodal::find_backend(a.backend.c_str());
+    nodal::NodalBody body(a, a.particles, 0, nodal::read_options(a.formulations[0], a.materials, dimension, NAN),
+                          backend);
+    nodal::FragmentContact contact(body);
+    Index const pair[]{0, body.particles() - 1}, near = 1;
+    for (Index const slot : {pair[0], pair[1], near}) contact.add(slot);
+    auto const& x = body.state().x;
+    double const h = *std::min_element(body.body().spacing.begin(), body.body().spacing.begin() + dimension);
+    contact.evaluate();
+    EXPECT_EQ(contact.energy(), 0);
+    auto const place = [&](double along) {
+      for (int c = 0; c < dimension; ++c)
+        value_at(x, pair[1], c) = value_at(x, pair[0], c) - (c == 0 ? along : 0.1) * h;
+      contact.evaluate();
+      return contact.energy();
+    };
+    double const further = place(0.501), nearer = place(0.499);
+    EXPECT_GT(place(0.5), 0);
+    EXPECT_GT(contact.frequency2(), 0);
+    std::vector<double> before;
+    for (Index const slot : pair)
+      for (int c = 0; c < dimension; ++c) before.push_back(value_at(body.state().v, slot, c));
+    contact.kick(1e-9);
+    double impulse[2][3]{};
+    for (int n = 0; n < 2; ++n)
+      for (int c = 0; c < dimension; ++c)
+        impulse[n][c] = body.mass(pair[n]) * (value_at(body.state().v, pair[n], c) - before[n * dimension + c]);
+    for (int c = 0; c < dimension; ++c) EXPECT_NEAR(impulse[0][c], -impulse[1][c], 1e-12 * std::abs(impulse[0][c]));
+    EXPECT_NEAR(impulse[1][0] / 1e-9, (further - nearer) / (0.002 * h), 1e-4 * std::abs(impulse[1][0]) / 1e-9);
+    EXPECT_EQ(value_at(body.state().v, near, 0), 0);
+  }
 }
 
 TEST(NodalFailure, RefusesNumbersThatDoNotBelongTogether) {

@@ -157,15 +157,16 @@ void NodalBody::fill(Assembly const& assembly, Backend const& backend) {
 
 void NodalBody::make_boundary(Assembly const& assembly, std::size_t body) {
   auto& r = reference_;
-  // Masses of all particles on all ranks for contact, or if every rank solves for held surface places.
-  if (shared() && (assembly.coupled || !r.held.empty())) DistributedSlots{slots(), particles()}.complete(r.mass, 1);
+  // Masses of all particles on all ranks for contact, also of pieces, or if every rank solves for held surface places.
+  bool const in_contact = assembly.coupled || options_.failure;
+  if (shared() && (in_contact || !r.held.empty())) DistributedSlots{slots(), particles()}.complete(r.mass, 1);
   if (shared())
     for (LazyZeroArray<double>& areas : r.face_areas) DistributedSlots{slots(), particles()}.complete(areas, 1);
   std::optional<Range> own;
   if (shared()) own = state_.slots;
   boundary_.emplace(assembly, body, Boundary::BodyInput{order_, r.mass, r.parts, r.centroid, r.held, own});
   boundary_->attach(state_);
-  if (!assembly.coupled) LazyZeroArray<double>().swap(r.mass);
+  if (!in_contact) LazyZeroArray<double>().swap(r.mass);
   LazyZeroArray<double>().swap(r.centroid);
   r.parts.clear();
 }

@@ -83,6 +83,9 @@ class NodalBody {
   double failure_value(Index slot, int of) const {
     return state_.has.failure ? value(state_.history, slot, Fields::failure_value(of, state_.dimension)) : 0;
   }
+  /// Energy of the contact of its pieces [J], on all ranks alike.
+  double fragment_energy() const { return fragment_energy_; }
+  void set_fragment_energy(double energy) { fragment_energy_ = energy; }
   void set_damping_loss(double loss) { damping_loss_ = loss; }
   /// Whether Backend::update_output_fields has run at the present state, so that no sweep is needed. Callers that
   /// change the state from outside must reset it.
@@ -99,7 +102,7 @@ class NodalBody {
   Mat<3> F(Index slot) const;  ///< at the centroid of the cell; missing directions: mean over its points
   MaterialRange const& material(Index slot) const { return materials_.of(slot); }
   double mass(Index slot) const { return reference_.own_fraction(slot) * value(state_.mass, slot); }
-  /// Mass of any particle [kg]. On all ranks if surface contact acts on the body.
+  /// Mass of any particle [kg]. On all ranks if surface contact acts on the body, or its cells may fail.
   double replicated_mass(Index slot) const { return reference_.mass[static_cast<std::size_t>(slot)]; }
   /// Area of a particle on a flat face of the body, a box, for contact [m^(D-1)]; as replicated_mass().
   double face_area(Index slot, std::array<double, 3> const& normal) const {
@@ -136,7 +139,7 @@ class NodalBody {
   mutable std::optional<Smoothing> smoothing_;
   std::optional<Boundary> boundary_;
   std::vector<double> partial_;
-  double damping_loss_ = 0, largest_change_ = 0;
+  double damping_loss_ = 0, largest_change_ = 0, fragment_energy_ = 0;
   bool observed_ = false;
   FailureSlot failure_;
   std::function<void(std::vector<Index> const&)> on_crushed_;  ///< may be empty

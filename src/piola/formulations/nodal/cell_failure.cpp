@@ -14,10 +14,12 @@ constexpr double least_ratio = 0.1;
 constexpr double tether = 1;
 /// Contact takes the motion of a surface point from the particles within this distance, in spacings.
 constexpr double host_reach = 1.6;
+/// Particles within this distance from one of a broken cell may be in contact with those of other pieces, in spacings.
+constexpr double beside_crack = 1.5;
 
 }  // namespace
 
-CellFailure::CellFailure(NodalBody& body, Backend const& backend) : body_(body), backend_(backend) {
+CellFailure::CellFailure(NodalBody& body, Backend const& backend) : body_(body), backend_(backend), fragments_(body) {
   if (!body_.reference().refits) return;
   near_crack_.resize(static_cast<std::size_t>(body_.slots()));
   broken_.resize(near_crack_.size());
@@ -160,6 +162,7 @@ CellFailure::Changes CellFailure::set(Changes const& changes) {
     put(change);
     broken_[static_cast<std::size_t>(change.slot)] = 1;
     if (change.condition == CellCondition::detached) lose_surfaces(change.slot);
+    for (Index const slot : body_.reference().refits->near(change.slot, beside_crack)) fragments_.add(slot);
   }
   Refits::Found const found = body_.reference().refits->set(changes);
   for (Index const slot : found.changed) {
@@ -199,6 +202,11 @@ bool CellFailure::follow(Changes changes) {
 
 bool CellFailure::update() { return body_.reference().refits && follow(find()); }
 
+void CellFailure::find_contact() {
+  fragments_.evaluate();
+  body_.set_fragment_energy(fragments_.energy());
+}
+
 void CellFailure::crush(std::vector<Index> const& slots) {
   Changes changes;
   for (Index const slot : slots)
@@ -216,6 +224,7 @@ void CellFailure::load() {
   if (changes.empty()) return;
   set(changes);
   for (Index i = body_.own().first; i < body_.own().last; ++i) value(i, FailureLayout::refitted) = 0;
+  find_contact();
 }
 
 }  // namespace piola::nodal

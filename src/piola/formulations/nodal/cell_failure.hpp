@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/nodal/body.hpp"
+#include "piola/formulations/nodal/fragment_contact.hpp"
 #include <vector>
 
 namespace piola::nodal {
@@ -16,6 +17,11 @@ class CellFailure {
 
   /// After a step. Returns whether gradients have changed. Collective.
   bool update();
+  /// Adds the impulse of the contact of pieces during dt [s] to the velocities.
+  void kick(double dt) const { fragments_.kick(dt); }
+  /// Computes the contact of pieces at the present positions. Collective.
+  void find_contact();
+  double contact_frequency2() const { return fragments_.frequency2(); }
   /// Lets local cells fail, at the start of a step that crushes them however short it is. Collective.
   void crush(std::vector<Index> const& slots);
   /// After the state of the body was loaded. Collective.
@@ -45,6 +51,7 @@ class CellFailure {
 
   NodalBody& body_;
   Backend const& backend_;
+  FragmentContact fragments_;
   std::vector<char> near_crack_;  ///< per slot, of local cells: gradients have changed
   std::vector<char> broken_;      ///< per slot, on all ranks alike: the cell is not intact
   std::vector<char> lost_;        ///< per slot, on all ranks alike

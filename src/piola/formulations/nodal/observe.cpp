@@ -88,7 +88,7 @@ void add_diagnostics(NodalBody const& body, NodalDiagnosticsSum& o) {
     o.of_cells.add_state(J, of_cells[static_cast<std::size_t>(i)], V);
   }
   if (body.shared()) comm::allreduce_sum(strain);
-  o.add_strain_energy(strain.value());
+  o.add_strain_energy(strain.value() + body.fragment_energy());
   o.totals.damping_loss += body.damping_loss();
   o.totals.stabilisation_loss += body.viscous_loss();
   o.totals.external_work += body.boundary().external_work().over_ranks();

@@ -61,10 +61,14 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
     actions_.begin_step(bodies_, dt);
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
       bodies_[k]->set_observed(false);
+      failures_[k]->kick(0.5 * dt);
       int const halvings = bodies_[k]->step(backend_, time, dt);
       repeated_ += halvings;
       if (bodies_[k]->state().failure->index >= bodies_[k]->particles() && failures_[k]->update())
         monitors_[k]->expect_change();
+      failures_[k]->find_contact();
+      failures_[k]->kick(0.5 * dt);
+      monitors_[k]->set_contact(failures_[k]->contact_frequency2());
       monitors_[k]->update(dt, halvings);
     }
     end_step(time + dt);
@@ -261,6 +265,7 @@ void Solver::load(StateReader& reader) {
     load_fields(reader, k);
     failures_[k]->load();
     monitors_[k]->load(reader, fmt::format("body{}_step_limit", k));
+    monitors_[k]->set_contact(failures_[k]->contact_frequency2());
     if (!descents_.empty()) descents_[k].load(reader, fmt::format("body{}_direction", k));
     std::array<double, 2> energy_totals{};
     reader.get(fmt::format("body{}_energy_books", k), energy_totals);

@@ -234,7 +234,10 @@ void StabilityMonitor::update(double dt, int halvings) {
   interval_ = calm ? std::min(2 * interval_, longest) : shortest;
 }
 
-double StabilityMonitor::frequency() const { return lift * std::max(frequency_, start_); }
+double StabilityMonitor::frequency() const {
+  double const of_body = lift * std::max(frequency_, start_);
+  return contact_frequency2_ > 0 ? std::sqrt(of_body * of_body + contact_frequency2_) : of_body;
+}
 
 double StabilityMonitor::step() const {
   return step_at(measurement_spacing_ == 0              ? first_share
