@@ -113,6 +113,10 @@ std::string end_report(CaseOutcome const& outcome, std::filesystem::path const& 
   if (s.linear_drift && s.angular_drift)
     text += fmt::format("  momentum drift: linear {}, angular {} of its scale\n", number_text(*s.linear_drift, 2),
                         number_text(*s.angular_drift, 2));
+  if (s.cracks)
+    text += fmt::format("  cracks: {} took {}, {} times the fracture_energy of the material\n",
+                        quantity_text(s.cracks->area, "m^2"), quantity_text(s.cracks->energy, "J/m^2"),
+                        number_text(s.cracks->energy / s.cracks->of_material, 3));
   for (MeasuredQuantity const& q : s.quantities)
     text += fmt::format("  {} = {}{}\n", q.name, number_text(q.value),
                         q.unit == "1" || std::isnan(q.value) ? "" : " " + q.unit);

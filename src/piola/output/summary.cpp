@@ -68,6 +68,10 @@ std::string to_json(Summary const& s) {
   add_ranks(s, document);
   if (s.linear_drift && s.angular_drift)
     document["momentum"] = {{"linear_drift", *s.linear_drift}, {"angular_drift", *s.angular_drift}};
+  if (s.cracks)
+    document["cracks"] = {{"area", s.cracks->area},
+                          {"energy_per_area", s.cracks->energy},
+                          {"fracture_energy_of_material", s.cracks->of_material}};
   for (auto const& [unit, value] : s.scales) document["scales"][unit] = value;
   if (s.relaxation) {
     document["relaxation"] = {

@@ -60,6 +60,12 @@ struct Summary {
   double energy_max_decrease = 0;
   /// Largest change of momentum by a momentum scale of the run; nothing if supports, loads or mirrors change it.
   std::optional<double> linear_drift, angular_drift;
+  /// Cracks of a run, if some have opened: area [m2, 2D: m], energy that softening took per area, and the largest
+  /// fracture_energy of the materials [J/m2].
+  struct Cracks {
+    double area = 0, energy = 0, of_material = 0;
+  };
+  std::optional<Cracks> cracks;
   /// Reference magnitude per unit, to judge values: "kg m/s", "kg m^2/s", "Pa".
   std::vector<std::pair<std::string, double>> scales;
   std::vector<std::pair<std::string, double>> seconds;  ///< wall time by part of the work [s], if the formulation

@@ -2,6 +2,7 @@
 #include "piola/simulation/run_summary.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/base/version.hpp"
+#include "piola/materials/hypoelastic_registry.hpp"
 #include "piola/measures/quantities.hpp"
 #include "piola/model/body_properties.hpp"
 #include <algorithm>
@@ -92,6 +93,22 @@ void add_conservation(Summary& summary, HistoryTable const& history, Simulation 
   summary.angular_drift = momentum > 0 && arm > 0 ? drift(history, "angular_momentum") / (momentum * arm) : 0;
 }
 
+void add_cracks(Summary& summary, HistoryTable const& history, Simulation const& s) {
+  auto const area = history.find("crack_area"), energy = history.find("fracture_energy");
+  if (!area || !energy || history.rows.empty() || !(history.rows.back()[*area] > 0)) return;
+  Summary::Cracks cracks{history.rows.back()[*area], 0, 0};
+  cracks.energy = history.rows.back()[*energy] / cracks.area;
+  auto const count = [&](MaterialParameters const& material) {
+    with_solid(material,
+               [&](auto const& law) { cracks.of_material = std::max(cracks.of_material, law.fracture.energy); });
+  };
+  for (BodySpec const& body : s.spec.bodies) {
+    count(body.material);
+    for (auto const& part : body.parts) count(part.material);
+  }
+  summary.cracks = cracks;
+}
+
 std::string status_word(RunStatus ending) {
   switch (ending) {
     case RunStatus::completed: return "completed";
@@ -126,6 +143,7 @@ Summary summarise(Simulation const& s, TimeState const& moment, RunStatus ending
   summary.seconds = std::move(statistics.seconds);
   for (SetUpCheck const& check : statistics.set_up_checks) summary.set_up.emplace_back(check.name, check.value);
   add_conservation(summary, history, s);
+  add_cracks(summary, history, s);
   for (QuantitySpec const& spec : s.spec.quantities) {
     std::string why;
     if (auto const value = measure(spec, history, why)) summary.quantities.push_back(*value);
