@@ -38,6 +38,16 @@ TEST(LineOfSight, DoesNotCrossASlitHoweverNarrow) {
   }
 }
 
+/// Second neighbours of a lattice across a slit between its rows, of any width.
+TEST(LineOfSight, DoesNotCrossASlitBetweenRowsOfALattice) {
+  for (double width = 0.1; width < 1; width += 0.02) {
+    Distance const slit = [&](Point const& X) { return std::max(0.5 * width - std::fabs(X[1]), -3.0); };
+    EXPECT_FALSE(see(slit, {0, 0.5, 0}, {2, -0.5, 0})) << width;
+    EXPECT_FALSE(see(slit, {0, 0.5, 0}, {-2, -0.5, 0})) << width;
+    EXPECT_FALSE(see(slit, {0, 0.5, 0}, {1, -0.5, 0})) << width;
+  }
+}
+
 TEST(LineOfSight, GrazesAHollowSurface) {
   Distance const hole = [](Point const& X) { return 5 - std::hypot(X[0], X[1]); };
   EXPECT_TRUE(see(hole, {5, -0.9, 0}, {5, 0.9, 0})) << "inside";
