@@ -19,7 +19,7 @@ constexpr std::array run_rows{
     RunKey{{"run", "end", quantity, "s", positive, "", "time at which the run ends"}, fills<&RunSpec::end>},
     RunKey{{"run", "cfl", quantity, "1", above(0, 2),
             "nodal, jst_sph with scheme = \"filtered\": none, the step is measured; jst_sph else 0.3; taylor_sph: 0.9, "
-            "exact lattices 1; adaptle: 0.3",
+            "exact lattices 1; adaptle: 0.3, up to 0.6 where shear has flattened total_lagrangian bodies",
             "step as a fraction of spacing / wave speed"},
            fills<&RunSpec::cfl>},
     RunKey{{"run", "damping", quantity, "1/s", not_negative, default_of_member,

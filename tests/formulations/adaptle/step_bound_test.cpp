@@ -46,9 +46,37 @@ TEST(AdaptleStepBound, NamesWaves) {
   EXPECT_EQ(bound.particle, 0) << "the first of equal ones";
 }
 
+/// A body of which shear has made a fifth of the height. The step of a body with the default damping, and the text.
+StepBound bound_of_a_flattened_body(std::string const& key = "beta", double number = 2, double poisson = 0.3) {
+  Assembly a = adaptle_assembly(unit_box(2, 6), material("elastic", 1000, 1e9, poisson));
+  choose(a, "description", "total_lagrangian");
+  if (key == "cfl")
+    a.cfl = number;
+  else
+    choose(a, key, number);
+  displace(a, [](Point const& X) { return Point{4 * X[0], -0.8 * X[1], 0}; });
+  return after_a_step(a);
+}
+
+/// Viscosity acts with 0.05 of its strength on bodies at rest: 0.6 - 0.05 (0.6 - 0.3).
+TEST(AdaptleStepBound, IsLongerWhereShearHasCompressedBodiesThatStayTotalLagrangian) {
+  StepBound const longer = bound_of_a_flattened_body();
+  EXPECT_NE(longer.text.find("run.cfl = 0.3, raised to 0.585 in shear, lengths compressed to 0.2 of"),
+            std::string::npos)
+      << longer.text;
+  for (std::string const key : {"alpha", "hourglass", "hourglass_stiffness"}) {
+    StepBound const usual = bound_of_a_flattened_body(key, 1.5);
+    EXPECT_NEAR(longer.step, 1.95 * usual.step, 1e-3 * usual.step) << key;
+    EXPECT_EQ(usual.text.find("raised"), std::string::npos) << usual.text;
+  }
+  EXPECT_EQ(bound_of_a_flattened_body("beta", 2, -0.1).text.find("raised"), std::string::npos);
+  EXPECT_NEAR(bound_of_a_flattened_body("cfl", 0.15).step, longer.step / 2, 1e-3 * longer.step);
+  EXPECT_NEAR(bound_of_a_flattened_body("cfl", 0.6).step, longer.step * 0.6 / 0.585, 1e-3 * longer.step);
+}
+
 TEST(AdaptleStepBound, NamesTheCompressedLengthOfWaves) {
   Assembly a = adaptle_assembly(unit_box(3, 4));
-  choose(a, "description", "total_lagrangian");
+  choose(a, "description", "adaptive");
   double const at_rest = after_a_step(a).step;
   for (Point const& X : a.particles.X) a.initial_displacement.push_back({-0.5 * X[0], 0, 0});
   StepBound const bound = after_a_step(a);

@@ -9,7 +9,6 @@ namespace {
 
 template <int D, class Law>
 void launch_law(Range r, void const* pass) {
-  exec::for_each_block(r, exec::as<Predict<D, PredictStress<Law>>>(pass));
   exec::for_each_block(r, exec::as<HalfState<D, false, HalfStress<Law>>>(pass));
   exec::for_each_block(r, exec::as<HalfState<D, true, HalfStress<Law>>>(pass));
   exec::for_each_block(r, exec::as<Finish<D, FinishStress<Law>>>(pass));
@@ -47,6 +46,7 @@ void launch_all(Range r, void const* pass) {
   launch_material<D, MaterialForm::published_plain>(r, pass);
   launch_space<D, CubicSpline>(r, pass);
   launch_space<D, WendlandC2>(r, pass);
+  exec::for_each_block(r, exec::as<Drift<D>>(pass));
   exec::for_each_block(r, exec::as<FoldCorrection<D>>(pass));
   exec::for_each_block(r, exec::as<ContactSweep<D>>(pass));
   exec::for_each_block(r, exec::as<RigidSweep<D>>(pass));

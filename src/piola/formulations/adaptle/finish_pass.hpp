@@ -142,12 +142,19 @@ struct StepEnd {
     StepLimit const limits{
         select(lagrangian && active.scalar<Lanes>(i) > 0.0, StepLimit::stretch_squared(inverse_F), one),
         select(lagrangian, Lanes(minimum(body.h, body.reference_h)), Lanes(body.h)),
+        sheared_cfl(i),
         c.scalar<Lanes>(i) + 0.6 * body.beta * scratch.compression_at(g),
         dot(acceleration, acceleration),
         mass.scalar<Lanes>(i),
         touching ? contact.scalar<Lanes>(i, ContactSum::stiffness) : none,
         select(divergence > closing, divergence, closing)};
     return limits.step(settings.cfl, body.h);
+  }
+
+  /// Courant number of the compressed length. Nearly `body.sheared_cfl` in shear, where the viscosity has almost no
+  /// effect, and settings.cfl where all of it acts.
+  PIOLA_FN Lanes sheared_cfl(Index i) const {
+    return body.sheared_cfl - (body.sheared_cfl - settings.cfl) * viscosity.seen().scalar<Lanes>(i);
   }
 
  private:

@@ -203,19 +203,66 @@ struct WriteRecords {
   }
 };
 
-/// Pressure, speed of sound and, for laws whose strength depends on pressure, stress at half time.
+/// gamma of S_half = S + dt/2 ((1 + gamma) rate - gamma last rate), with the rate at half time. A shear wave with the
+/// angular frequency omega then grows by (1 - gamma) (omega dt)^4 / 8 per step, and is stable to omega dt = gamma^-1/2.
+/// The last rate alone, gamma = -1, lets it grow by (omega dt)^4 / 4.
+inline constexpr double extrapolation = 0.7;
+
+/// Predicts the deviator at half time and returns it to the yield surface, without a change of history. Bodies that
+/// stay total-Lagrangian know their velocity gradient at half time. Other bodies, and plane stress, use the rate of the
+/// last step.
+template <class Law>
+struct PredictStress {
+  Law law;
+  double step;      ///< half of a time step [s]
+  bool lagrangian;  ///< whether the velocity gradient is known
+  GradientAtHalfTime half;
+  Components S_rate, flow;
+
+  PIOLA_SHARED inline PredictStress(Law const& of_body, System const& s, BodyConstants const& body, double dt)
+      : law(of_body),
+        step(0.5 * dt),
+        lagrangian(body.lagrangian && !s.settings.plane_stress),
+        half(s),
+        S_rate(read(s.field.S_rate)),
+        flow(read(s.field.flow)) {}
+
+  PIOLA_FN SymMat<3, Lanes> operator()(PointFields const& point, Index i) const {
+    SymMat<3, Lanes> const before = point.S.symmetric<Lanes>(i);
+    SymMat<3, Lanes> rate = S_rate.symmetric<Lanes>(i), trial;
+    if (lagrangian) extrapolate(i, before, rate);
+    for (int c = 0; c < 6; ++c) trial.c[c] = before.c[c] + step * rate.c[c];
+    auto const bears = point.bears<Lanes>(i);
+    SymMat<3, Lanes> S = law.predicted(point.history<Lanes>(i, before), trial, flow.scalar<Lanes>(i), step);
+    for (Lanes& c : S.c) c = select(bears, c, Lanes(0.0));
+    return S;
+  }
+
+ private:
+  /// rate: in, that of the last step; out, that which leads to half time.
+  PIOLA_FN void extrapolate(Index i, SymMat<3, Lanes> const& S, SymMat<3, Lanes>& rate) const {
+    Mat<3, Lanes> L = half.of_material(i);
+    half.turn_around_axis(i, L);
+    SymMat<3, Lanes> const now = law.deviator_rate(S, L);
+    for (int c = 0; c < 6; ++c) rate.c[c] = (1 + extrapolation) * now.c[c] - extrapolation * rate.c[c];
+  }
+};
+
+/// Stress at half time, and the speed of sound.
 template <class Law>
 struct HalfStress {
   Law law;
   double step;  ///< half of a time step [s]
   PointFields point;
+  PredictStress<Law> predict;
   Components mass, rho_half, energy, energy_rate;
   OwnComponents pressure, c, S_half;
 
-  PIOLA_SHARED inline HalfStress(Law const& of_body, System const& s, double dt)
+  PIOLA_SHARED inline HalfStress(Law const& of_body, System const& s, BodyConstants const& body, double dt)
       : law(of_body),
         step(0.5 * dt),
         point(s.field, s.own),
+        predict(of_body, s, body, dt),
         mass(read(s.field.mass)),
         rho_half(read(s.field.rho_half)),
         energy(read(s.field.energy)),
@@ -232,10 +279,9 @@ struct HalfStress {
       Lanes const p = point.pressure<Lanes>(law, i, rho, e);
       pressure.put(g, p);
       c.put(g, law.template sound_speed<Lanes>(rho, e));
-      if constexpr (Law::pressed) {
-        SymMat<3, Lanes> const trial = S_half.seen().symmetric<Lanes>(i);
-        S_half.put_all(g, law.returned(point.history<Lanes>(i, trial), trial, step, p, rho / law.rho0).c);
-      }
+      SymMat<3, Lanes> S = predict(point, i);
+      if constexpr (Law::pressed) S = law.returned(point.history<Lanes>(i, S), S, step, p, rho / law.rho0);
+      S_half.put_all(g, S.c);
     });
   }
 };

@@ -36,22 +36,20 @@ struct Kick {
   double dt;
   System s;  ///< optional data: results of spatial sums, supports, loads
   MaterialTable material;
-  Components X, mass, force, heat, compression, phi, F, F_rate, v_half, S_half, pressure, rho_half, turned;
+  GradientAtHalfTime half;
+  Components mass, force, heat, compression, phi, S_half, pressure, rho_half, turned;
   OwnComponents x, v, a;
 
   PIOLA_SHARED inline Kick(System const& system, MaterialTable const& table, double step)
       : dt(step),
         s(system),
         material(table),
-        X(read(s.field.X)),
+        half(s),
         mass(read(s.field.mass)),
         force(read(s.field.force)),
         heat(read(s.field.heat)),
         compression(read(s.field.compression)),
         phi(read(s.field.phi)),
-        F(read(s.field.F)),
-        F_rate(read(s.field.F_rate)),
-        v_half(read(s.field.v_half)),
         S_half(read(s.field.S_half)),
         pressure(read(s.field.pressure)),
         rho_half(read(s.field.rho_half)),
@@ -86,7 +84,7 @@ struct Kick {
     for (int c = 0; c < D; ++c) {
       Lanes const total = force.data != nullptr ? spatial[c] + force.scalar<Lanes>(i, c) : spatial[c];
       Lanes rate = total * per_mass;
-      if (c == 0 && s.settings.axisymmetric) rate = select(is_on_axis(i), Lanes(0.0), rate - hoop_pull(i));
+      if (c == 0 && s.settings.axisymmetric) rate = select(half.is_on_axis(i), Lanes(0.0), rate - hoop_pull(i));
       store(rate, acceleration[c]);
       store(v.seen().scalar<Lanes>(i, c) + dt * rate, after[c]);
     }
@@ -105,7 +103,7 @@ struct Kick {
   /// Radial acceleration by the hoop stress, inwards: that of V sigma_33 / r.
   PIOLA_FN Lanes hoop_pull(Index i) const {
     Lanes const stress = S_half.scalar<Lanes>(i, SymMat<3>::at(2, 2)) - pressure.scalar<Lanes>(i);
-    return stress / (rho_half.scalar<Lanes>(i) * radius_at(i));
+    return stress / (rho_half.scalar<Lanes>(i) * half.radius_at(i));
   }
 
   /// Turns particles beyond the axis, with the radial velocity, and counts those of the whole step.
@@ -145,15 +143,6 @@ struct Kick {
   }
 
  public:
-  PIOLA_FN auto is_on_axis(Index i) const { return X.scalar<Lanes>(i) < s.smallest_radius; }
-  /// Radii at half time, never zero [m].
-  PIOLA_FN Lanes radius_at(Index i) const {
-    double radius[lane_count];
-    for (int l = 0; l < lane_count; ++l)
-      radius[l] = maximum(s.position[std::ptrdiff_t{3} * (i + l)], s.smallest_radius);
-    return load<Lanes>(radius);
-  }
-
   /// spatial: velocity gradient of the spatial sums.
   PIOLA_FN void set_gradient(Group g, Lanes const* spatial, BlockScratch& scratch) const {
     Index const i = g.first;
@@ -162,11 +151,11 @@ struct Kick {
     Lanes const blend = phi.scalar<Lanes>(i);
     auto const lagrangian = blend < 1.0;
     if (material.used && any(lagrangian)) {
-      Mat<3, Lanes> const of_material = F_rate.matrix<Lanes>(i) * inverse(F.matrix<Lanes>(i));
+      Mat<3, Lanes> const of_material = half.of_material(i);
       for (int c = 0; c < 9; ++c)
         L.c[c] = select(lagrangian, blend * L.c[c] + (1.0 - blend) * of_material.c[c], L.c[c]);
     }
-    if (s.settings.axisymmetric) L(2, 2) = select(is_on_axis(i), L(0, 0), v_half.scalar<Lanes>(i) / radius_at(i));
+    half.turn_around_axis(i, L);
     for (int c = 0; c < 9; ++c) store(L.c[c], scratch.L[c] + (i - scratch.first));
   }
 };

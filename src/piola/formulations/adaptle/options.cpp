@@ -144,6 +144,9 @@ constexpr std::array diagnostics{DiagnosticInfo{"internal_energy", "J"},
 
 std::string_view word(FormulationSpec const& spec, std::string_view name) { return word_of(spec, choices, name); }
 
+/// Largest Courant number of lengths that shear has compressed, unless run.cfl is larger.
+constexpr double longest_sheared = 0.6;
+
 double number(FormulationSpec const& spec, std::string_view name) {
   for (Parameter const& p : parameters)
     if (p.name == name) return number_of(spec, name, p.default_value);
@@ -161,6 +164,18 @@ bool yields(MaterialParameters const& material) {
 /// (record 13).
 double default_hourglass(BodyOptions const& o, bool springs, bool yielding) {
   return springs || (yielding && o.description == Description::total_lagrangian) ? 0.1 : 0.7;
+}
+
+/// Whether lengths that shear has compressed may have a Courant number of up to `longest_sheared`. Bodies that stay
+/// total-Lagrangian are stable at it (shear_waves_test) with damping and springs up to these values. The limit falls in
+/// inverse proportion to stronger ones, and with Poisson's ratios below zero (record 30).
+bool allows_longer_steps(BodyOptions const& o, Settings const& s, MaterialParameters const& material) {
+  constexpr double most_alpha = 1, most_hourglass = 0.3, most_stiffness = 1;
+  if (o.description != Description::total_lagrangian || !s.equations.has_correction() || s.plane_stress) return false;
+  if (o.alpha > most_alpha || o.hourglass > most_hourglass || o.hourglass_stiffness > most_stiffness) return false;
+  bool positive = true;
+  with_solid(material, [&](auto const& law) { positive = 3 * law.kappa >= 2 * law.mu; });
+  return positive;
 }
 
 /// springs: material sums have a hourglass stiffness, which materials without yield need.
@@ -357,6 +372,9 @@ Options read_options(Assembly const& assembly) {
   check_alike(assembly, problems);
   for (std::size_t b = 0; b < assembly.formulations.size(); ++b) {
     o.bodies.push_back(read_body(assembly.formulations[b], dimension, springs, yields(assembly.materials[b])));
+    double& sheared_cfl = o.bodies.back().sheared_cfl = o.settings.cfl;
+    if (allows_longer_steps(o.bodies.back(), o.settings, assembly.materials[b]))
+      sheared_cfl = std::max(sheared_cfl, std::min(2 * sheared_cfl, longest_sheared));
     check_body(o.bodies.back(), o.settings, assembly.particles.bodies[b].name, problems);
     check_fracture(assembly.materials[b], assembly.particles.bodies[b].name, problems);
   }

@@ -23,6 +23,7 @@ struct BodyOptions {
   double artificial_stress = 0.3;
   double hourglass = 0;
   double hourglass_stiffness = 0;
+  double sheared_cfl = 0.3;  ///< see BodyConstants
   std::optional<Expression> eulerian_where, convert_when;
   std::optional<Expression> initial_pressure;  ///< positive in tension [Pa]
   std::optional<Expression> ignition;          ///< ignition time of an explosive [s]

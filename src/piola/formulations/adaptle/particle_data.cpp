@@ -90,6 +90,7 @@ void ParticleData::set_bodies(Assembly const& assembly, Options const& options) 
     b.artificial_stress = o.artificial_stress;
     b.hourglass = o.hourglass;
     b.hourglass_stiffness = o.hourglass_stiffness;
+    b.sheared_cfl = o.sheared_cfl;
     b.convert_strain = o.convert_strain;
     b.convert_damage = o.convert_damage;
     b.jacobian_min = o.jacobian_min;
@@ -97,6 +98,7 @@ void ParticleData::set_bodies(Assembly const& assembly, Options const& options) 
     b.tether = o.tether;
     b.adaptive = o.description == Description::adaptive || o.description == Description::patch;
     if (o.description == Description::patch) b.tether = b.adaptive = false;
+    b.lagrangian = o.description == Description::total_lagrangian;
     b.deletes = o.deletes;
     with_solid(b.material, [&](auto const& law) { take_constants(law, o, reach, b); });
     body_.push_back(b);

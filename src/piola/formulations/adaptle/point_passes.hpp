@@ -51,7 +51,7 @@ struct Drift {
         equations(s.settings.equations),
         failure(s.failure) {}
 
-  PIOLA_SHARED PIOLA_FN void operator()(Range block) const {
+  PIOLA_SHARED PIOLA_FN void operator()(Range block, Index) const {
     each_group(block, [&](Group g) { move(g); });
   }
 
@@ -152,47 +152,34 @@ struct LawPart {
   }
 };
 
-/// Predicts the stress at half time with the rate of the last step. S is returned to the yield surface without a change
-/// of history.
-template <class Law>
-struct PredictStress {
-  Law law;
-  double dt;
-  PointFields point;
-  Components S_rate, flow;
-  OwnComponents S_half;
+/// Velocity gradient of total-Lagrangian particles at half time, dF/dt F^-1 [1/s], and its component around the axis.
+/// Only after the first sweep over reference neighbours.
+struct GradientAtHalfTime {
+  bool axisymmetric;
+  double smallest_radius;
+  double const* position;
+  Components X, v_half, F, F_rate;
 
-  PIOLA_SHARED inline PredictStress(Law const& of_body, System const& s, double step)
-      : law(of_body),
-        dt(step),
-        point(s.field, s.own),
-        S_rate(read(s.field.S_rate)),
-        flow(read(s.field.flow)),
-        S_half(write(s.field.S_half)) {}
+  explicit GradientAtHalfTime(System const& s)
+      : axisymmetric(s.settings.axisymmetric),
+        smallest_radius(s.smallest_radius),
+        position(s.position),
+        X(read(s.field.X)),
+        v_half(read(s.field.v_half)),
+        F(read(s.field.F)),
+        F_rate(read(s.field.F_rate)) {}
 
-  PIOLA_FN void operator()(Range block) const {
-    each_group(block, [&](Group g) {
-      Index const i = g.first;
-      double const step = 0.5 * dt;
-      SymMat<3, Lanes> const before = point.S.symmetric<Lanes>(i);
-      SymMat<3, Lanes> trial;
-      for (int c = 0; c < 6; ++c) trial.c[c] = before.c[c] + step * S_rate.scalar<Lanes>(i, c);
-      auto const bears = point.bears<Lanes>(i);
-      SymMat<3, Lanes> const S = law.predicted(point.history<Lanes>(i, before), trial, flow.scalar<Lanes>(i), step);
-      for (int c = 0; c < 6; ++c) S_half.put(g, select(bears, S.c[c], Lanes(0.0)), c);
-    });
+  PIOLA_FN Mat<3, Lanes> of_material(Index i) const { return F_rate.matrix<Lanes>(i) * inverse(F.matrix<Lanes>(i)); }
+  PIOLA_FN auto is_on_axis(Index i) const { return X.scalar<Lanes>(i) < smallest_radius; }
+  /// Radii at half time, never zero [m].
+  PIOLA_FN Lanes radius_at(Index i) const {
+    double radius[lane_count];
+    for (int l = 0; l < lane_count; ++l) radius[l] = maximum(position[std::ptrdiff_t{3} * (i + l)], smallest_radius);
+    return load<Lanes>(radius);
   }
-};
-
-/// Drifts to half time and predicts with the rates of the last step. Stress: PredictStress, or a LawPart of it.
-template <int D, class Stress>
-struct Predict {
-  Drift<D> drift;
-  Stress stress;
-
-  PIOLA_FN void operator()(Range block, Index) const {
-    drift(block);
-    stress(block);
+  /// L: the components in the section, of all particles.
+  PIOLA_FN void turn_around_axis(Index i, Mat<3, Lanes>& L) const {
+    if (axisymmetric) L(2, 2) = select(is_on_axis(i), L(0, 0), v_half.scalar<Lanes>(i) / radius_at(i));
   }
 };
 

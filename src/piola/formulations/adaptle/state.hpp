@@ -77,6 +77,7 @@ struct BodyConstants {
   double artificial_stress = 0;    ///< epsilon
   double hourglass = 0;            ///< damping of velocities that gradients do not see
   double hourglass_stiffness = 0;  ///< against displacements that gradients do not see, over the shear modulus
+  double sheared_cfl = 0.3;        ///< Courant number of lengths that shear has compressed
   double convert_strain = 0, convert_damage = 1, jacobian_min = 0, jacobian_max = 0, tether = 0;
   double shear_share = 0.5;         ///< speed of shear waves over that of pressure waves
   double bulk_modulus = 0;          ///< at rest [Pa]
@@ -85,6 +86,7 @@ struct BodyConstants {
   double burst_pressure = 0;        ///< of an explosive [Pa]
   double poisson = 0, young = 0;    ///< of the strain across the plane (eq. 19)
   bool adaptive = false;            ///< total-Lagrangian particles may convert
+  bool lagrangian = false;          ///< all particles stay total-Lagrangian
   bool releases = false;            ///< failed particles lose shear and tension
   bool deletes = false;             ///< failed total-Lagrangian particles are deleted
 };

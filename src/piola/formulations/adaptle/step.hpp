@@ -21,11 +21,7 @@ struct Step {
   Range body_range(int b) const { return s.part[b]; }
 
   void predict(double dt) const {
-    for (int b = 0; b < s.bodies; ++b)
-      with_solid(s.body[b].material, [&](auto const& law) {
-        PredictStress const stress(law, s, dt);
-        predict(b, dt, LawPart<>(stress));
-      });
+    for (int b = 0; b < s.bodies; ++b) exec::for_each_block(body_range(b), Drift<D>(s, material_of(b), dt));
     if (s.settings.axisymmetric)
       exec::for_each_block(Range{0, s.particles},
                            ImageMotion{write(s.field.x), write(s.field.v_half), s.position, s.particles});
@@ -40,7 +36,7 @@ struct Step {
   void half_state(double dt) const {
     for (int b = 0; b < s.bodies; ++b)
       with_solid(s.body[b].material, [&](auto const& law) {
-        HalfStress const stress(law, s, dt);
+        HalfStress const stress(law, s, s.body[b], dt);
         half_state<Corrected>(b, dt, LawPart<>(stress));
       });
   }
@@ -92,9 +88,6 @@ struct Step {
 
  private:
   /// Parts of a step for one body, by what its law does.
-  PIOLA_SHARED inline void predict(int b, double dt, LawPart<> const& stress) const {
-    exec::for_each_block(body_range(b), Predict<D, LawPart<>>{Drift<D>(s, material_of(b), dt), stress});
-  }
   template <bool Corrected>
   PIOLA_SHARED inline void half_state(int b, double dt, LawPart<> const& stress) const {
     exec::for_each_block(body_range(b), HalfState<D, Corrected, LawPart<>>{

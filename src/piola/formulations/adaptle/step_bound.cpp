@@ -18,6 +18,7 @@ struct ParticleBound {
   double stiffness = 0, acceleration = 0;  ///< of contact [N/m], [m/s2]
   double sound = 0, compression = 0;       ///< [m/s], |mu_ab| of the viscosity [m/s]
   double shortest_length = 1;              ///< of material, over its length at rest; at most 1
+  double sheared_cfl = 0;                  ///< Courant number of that length
 
   void add(ParticleBound const& other) {
     if (other.step < step || (other.step == step && other.slot < slot)) *this = other;
@@ -54,7 +55,8 @@ class BoundOfParticle {
             .compression = scratch.compression[0],
             .shortest_length = material && end_.active.at(i) > 0
                                    ? 1 / std::sqrt(std::max(1.0, StepLimit::stretch_squared(inverse_F)))
-                                   : 1};
+                                   : 1,
+            .sheared_cfl = lane(end_.sheared_cfl(i), 0)};
   }
 
  private:
@@ -104,10 +106,13 @@ std::string text_of(ParticleBound const& b, double cfl) {
     return fmt::format("the stiffness of contact: 0.5 sqrt(m / k) with k = {:.4g} N/m", b.stiffness);
   if (b.acceleration > 0 && 0.25 * std::sqrt(b.h / b.acceleration) < b.step * same)
     return fmt::format("acceleration: 0.25 sqrt(h / a) with a = {:.4g} m/s2", b.acceleration);
+  bool const compressed = b.sheared_cfl * b.shortest_length < cfl;
   return fmt::format(
-      "waves: run.cfl h / c with run.cfl = {}, lengths compressed to {:.4g} of those at rest, a sound speed of {:.4g} "
+      "waves: run.cfl h / c with run.cfl = {}{}, lengths compressed to {:.4g} of those at rest, a sound speed of "
+      "{:.4g} "
       "m/s, and approach of neighbours at {:.4g} m/s (viscosity)",
-      cfl, b.shortest_length, b.sound, b.compression);
+      cfl, compressed && b.sheared_cfl > cfl ? fmt::format(", raised to {:.3g} in shear", b.sheared_cfl) : "",
+      compressed ? b.shortest_length : 1, b.sound, b.compression);
 }
 
 }  // namespace

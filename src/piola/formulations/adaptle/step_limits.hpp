@@ -13,18 +13,21 @@ inline constexpr double largest_change = 0.05;
 struct StepLimit {
   Lanes stretch;       ///< of the smoothing length, F^-1, squared: see stretch_squared; 1: nothing is compressed
   Lanes length;        ///< h at rest [m]
+  Lanes sheared_cfl;   ///< Courant number of the compressed length; at least that of `length`
   Lanes speed;         ///< of sound and viscosity [m/s]
   Lanes acceleration;  ///< squared [m2/s4]
   Lanes mass;          ///< [kg]
   Lanes stiffness;     ///< of contacts [N/m]
   Lanes rate;          ///< of volume, or closing rate of bodies [1/s]
 
-  /// The stable step [s]: the smallest of CFL h / c, with the current speed of sound, the compressed length of material
-  /// pairs and the quadratic viscosity; 0.25 sqrt(h / |a|); 0.5 sqrt(m / k) of contacts; and the step in which a
-  /// volume, or the spacing between bodies, changes by `largest_change`. NaN is detected elsewhere.
+  /// The stable step [s]: the smallest of CFL h / c, with the current speed of sound and the quadratic viscosity, h
+  /// that at rest or, with sheared_cfl, the compressed length of material pairs; 0.25 sqrt(h / |a|); 0.5 sqrt(m / k) of
+  /// contacts; and the step in which a volume, or the spacing between bodies, changes by `largest_change`. NaN is
+  /// detected elsewhere.
   PIOLA_FN Lanes step(double cfl, double h) const {
     Lanes const never(1e300);
-    Lanes step = cfl * (length / square_root(maximum(stretch, Lanes(1.0)))) / speed;
+    Lanes const compressed = length / square_root(maximum(stretch, Lanes(1.0)));
+    Lanes step = minimum(cfl * length, sheared_cfl * compressed) / speed;
     Lanes const a = square_root(acceleration);
     step = shorter(step, select(a > 0.0, 0.25 * square_root(h / a), never));
     step = shorter(step, select(stiffness > 0.0, 0.5 * square_root(mass / stiffness), never));
