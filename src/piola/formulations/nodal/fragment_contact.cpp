@@ -9,7 +9,7 @@ namespace piola::nodal {
 namespace {
 
 /// Distance at which springs touch, and that in the reference configuration from which particles have one, in spacings.
-constexpr double touching = 0.8, apart = 3;
+constexpr double touching = 0.6, apart = 3;
 /// Stiffness, in units of the P-wave modulus times the volume of a cell over the square of the spacing.
 constexpr double stiffness = 0.5;
 

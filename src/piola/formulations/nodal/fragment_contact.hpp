@@ -6,7 +6,7 @@
 namespace piola::nodal {
 
 /// Contact of the pieces of one body whose cells have failed: linear springs between particles of broken cells and
-/// those beside them, at least three spacings apart in the reference configuration, that come nearer than 0.8 spacings.
+/// those beside them, at least three spacings apart in the reference configuration, that come nearer than 0.6 spacings.
 /// No friction. Central forces of an energy of positions: momenta and energy are kept. Theory: docs/theory/nodal.md,
 /// "Failure".
 class FragmentContact {
