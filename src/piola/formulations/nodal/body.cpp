@@ -26,7 +26,7 @@ struct StepReduction {
 
 /// A step is taken in at most two to this power parts.
 constexpr int most_halvings = 8;
-/// The same where cells may fail.
+/// Halvings of a step where cells may fail, at most.
 constexpr int most_halvings_of_failure = 3;
 /// A point of a cell that loses more than the rest of its volume in a step is crushed faster than the step can follow.
 constexpr double least_share = 0.5;

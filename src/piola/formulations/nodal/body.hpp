@@ -62,7 +62,7 @@ class NodalBody {
   /// up to a few times; if that does not help, the failure remains, or the cell fails where on_crushed() is given.
   /// Returns the number of halvings. `halvings`: of the whole step before this part of it.
   int step(Backend const& backend, double time, double dt, int halvings = 0);
-  /// What becomes of local cells that are inverted however short the step, at the state before it. Collective.
+  /// `act` is called at the start of a step that inverts local cells however short it is. Collective.
   void on_crushed(std::function<void(std::vector<Index> const& slots)> act) { on_crushed_ = std::move(act); }
   /// Multiplies the velocities that no support prescribes; the lost kinetic energy is added to damping_loss().
   void damp(double factor);

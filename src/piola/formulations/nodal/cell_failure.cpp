@@ -186,7 +186,7 @@ void CellFailure::take_over() {
   backend_.step(state, 0);
 }
 
-bool CellFailure::follow(Changes changes) {
+bool CellFailure::propagate(Changes changes) {
   bool any = false;
   for (changes = over_ranks(std::move(changes)); !changes.empty(); changes = over_ranks(std::move(changes))) {
     any = true;
@@ -200,7 +200,7 @@ bool CellFailure::follow(Changes changes) {
   return any;
 }
 
-bool CellFailure::update() { return body_.reference().refits && follow(find()); }
+bool CellFailure::update() { return body_.reference().refits && propagate(find()); }
 
 void CellFailure::find_contact() {
   fragments_.evaluate();
@@ -212,7 +212,7 @@ void CellFailure::crush(std::vector<Index> const& slots) {
   for (Index const slot : slots)
     changes.push_back(
         {slot, condition(slot) == CellCondition::intact ? CellCondition::broken : CellCondition::detached});
-  follow(std::move(changes));
+  propagate(std::move(changes));
 }
 
 void CellFailure::load() {

@@ -44,7 +44,7 @@ class CellFailure {
   /// Returns the cells that fail by it.
   Changes set(Changes const& changes);
   /// Sets the changes of all ranks, and those that follow. Returns whether there was one. Collective.
-  bool follow(Changes changes);
+  bool propagate(Changes changes);
   void put_gradients(Index slot) const;
   void lose_surfaces(Index detached);
   void take_over();

@@ -260,12 +260,10 @@ class SolidCells {
       double const before = value(At::softening);
       double now = before;
       if (failure_.strength < unbounded) {
-        CrackBand const band =
-            crack_band(failure_.strength * lane(cell.toughness, l), failure_.energy, failure_.modulus, failure_.band);
         double const largest = value(At::largest_stress);
-        double const most = maximum(largest, stress.largest_principal(maximum(largest, band.strength)));
+        double const most = stress.largest_since(largest, failure_, lane(cell.toughness, l));
         if (most > largest) put(At::largest_stress, most);
-        now = maximum(now, band.softening(most));
+        now = maximum(now, band_of(failure_, lane(cell.toughness, l)).softening(most));
       }
       if (failure_.damages && mean_damage(i + l) > least_damage)
         now = maximum(now,
