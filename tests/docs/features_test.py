@@ -309,6 +309,8 @@ FEATURES = {
     "heating by plastic work": material(law="johnson_cook", **HARDENS, specific_heat=1,
                                         without={"law": "johnson_cook", **HARDENS}),
     "damage": metal(damage="johnson_cook", d1=0.001, melting_temperature=1800),
+    "cracks with a toughness": material(law="elastic", **STEEL, tensile_strength=1e3, fracture_energy=1e-6,
+                                        without={"law": "elastic", **STEEL}),
     "tension cut off at a limit": metal(spall_pressure=1e8),
     "spall that opens a gap": material(law="perfectly_plastic", **YIELD, **SPALL,
                                        without={"law": "perfectly_plastic", **YIELD, "spall_pressure": 1e8}),

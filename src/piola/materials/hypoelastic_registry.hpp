@@ -52,7 +52,7 @@ struct SolidLaw {
     append(std::array{Parameter{"spall_pressure", "Pa", "spall strength: largest tension the material carries",
                                 positive, unbounded, "no limit"}});
     if (!Strength::brittle) append(Fracture::parameters);
-    if (Strength::yields) append(Scatter::parameters);
+    append(Scatter::parameters);
     return all;
   }
 

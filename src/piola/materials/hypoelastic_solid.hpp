@@ -42,7 +42,7 @@ struct SolidLayout {
   static constexpr int spall = damage + (Strength::yields ? static_cast<int>(JohnsonCookDamage::parameters.size()) : 0);
   static constexpr int fracture = spall + 1;
   static constexpr int scatter = fracture + (Strength::brittle ? 0 : Fracture::size);
-  static constexpr int size = scatter + (Strength::yields ? Scatter::size : 0);
+  static constexpr int size = scatter + Scatter::size;
   static constexpr int eos_word = 0, damage_word = 1, spall_word = 2;
 };
 
@@ -203,7 +203,7 @@ class Solid {
   }
 
  private:
-  static constexpr double none[Scatter::size] = {unbounded, 0, 1}, no_fracture[Fracture::size] = {unbounded, 0, 0};
+  static constexpr double no_fracture[Fracture::size] = {unbounded, 0, 0};
 
   Solid(ElasticConstants const& elastic, MaterialParameters const& m, Heat const& heat)
       : rho0(elastic.rho0),
@@ -212,7 +212,7 @@ class Solid {
         spall_pressure(m.value[Layout::spall]),
         damages(false),
         fracture(Strength::brittle ? no_fracture : m.value + Layout::fracture),
-        scatter(Strength::yields ? m.value + Layout::scatter : none),
+        scatter(m.value + Layout::scatter),
         wears_(Strength::brittle || (Strength::yields && m.word[Layout::damage_word] > 0)),
         spall_(Strength::yields ? m.word[Layout::spall_word] : 0),
         heat_(heat),

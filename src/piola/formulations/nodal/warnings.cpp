@@ -24,6 +24,10 @@ void warn_of_failure(Assembly const& assembly, std::size_t body, BodyWarnings& w
   double const width = width_of_crack(set.bodies[body], set.dimension);
   for (MaterialParameters const& material : materials)
     with_solid(material, [&](auto const& law) {
+      if (law.scatter.modulus < unbounded && !fails(material))
+        warnings.add("material.weibull_modulus",
+                     "weibull_modulus has no effect here (nothing of this material fails: it has no tensile_strength, "
+                     "damage or spall) - remove it, or give one of these");
       if (!(law.fracture.strength < unbounded)) return;
       double const modulus = modulus_across_crack(set.dimension, law.kappa, law.mu);
       CrackBand const band = crack_band(law.fracture.strength, law.fracture.energy, modulus, width);
