@@ -198,6 +198,21 @@ TEST(NodalFailure, PiecesPushEachOtherApart) {
     for (int c = 0; c < dimension; ++c) EXPECT_NEAR(impulse[0][c], -impulse[1][c], 1e-12 * std::abs(impulse[0][c]));
     EXPECT_NEAR(impulse[1][0] / 1e-9, (further - nearer) / (0.002 * h), 1e-4 * std::abs(impulse[1][0]) / 1e-9);
     EXPECT_EQ(value_at(body.state().v, near, 0), 0);
+    // What is near when it is added stores no energy, but pushes when it comes nearer, also from a checkpoint.
+    nodal::FragmentContact late(body), loaded(body);
+    for (nodal::FragmentContact* one : {&late, &loaded}) {
+      one->add(pair[0]);
+      one->add(pair[1]);
+    }
+    late.evaluate();
+    EXPECT_EQ(late.energy(), 0);
+    loaded.load(late.state());
+    place(0.4);
+    late.evaluate();
+    loaded.evaluate();
+    EXPECT_GT(late.energy(), 0);
+    EXPECT_LT(late.energy(), contact.energy());
+    EXPECT_EQ(loaded.energy(), late.energy());
   }
 }
 
@@ -213,6 +228,12 @@ TEST(NodalFailure, RefusesNumbersThatDoNotBelongTogether) {
                {"tensile_strength", "fracture_energy", "both"});
   expect_words(refused([](Assembly&, MaterialParameters& m) { set(m, "fracture_displacement", 1e-3); }),
                {"fracture_displacement", "damage"});
+  expect_words(refused([](Assembly& a, MaterialParameters&) {
+                 a.particles.part.own().assign(a.particles.X.size(), 0);
+                 a.particles.part.own().front() = 1;
+                 a.parts = {{rubber()}};
+               }),
+               {"fails", "hyperelastic", "tie"});
   expect_words(refused([](Assembly& a, MaterialParameters&) { choose(a, "fluctuation_viscosity", 0.05); }),
                {"fluctuation_viscosity", "tensile_strength"});
   expect_words(refused([](Assembly& a, MaterialParameters&) {

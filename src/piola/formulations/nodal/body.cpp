@@ -185,15 +185,15 @@ int NodalBody::step(Backend const& backend, double time, double dt, int halvings
   backend.step(state_, dt);
   if (state_.has.axisymmetric) record_behind_axis();
   agree_on_step(backend.largest_change(state_));
-  bool const stuck = failed() && halvings == most;
-  std::vector<Index> const inverted = stuck && on_crushed_ ? crushed() : std::vector<Index>{};
-  if (!failed() || (stuck && !on_crushed_)) {
+  std::vector<Index> inverted;
+  bool const crushes = failed() && halvings == most && on_crushed_ && find_crushed(inverted);
+  if (!failed() || (halvings == most && !crushes)) {
     boundary_->end_step(state_);
     return 0;
   }
   backend.restore(state_);
   failure_.clear();
-  if (stuck) {
+  if (crushes) {
     on_crushed_(inverted);
     return step(backend, time, dt, halvings);
   }
@@ -201,12 +201,13 @@ int NodalBody::step(Backend const& backend, double time, double dt, int halvings
   return 1 + first + (failed() ? 0 : step(backend, time + 0.5 * dt, 0.5 * dt, halvings + 1));
 }
 
-/// Local cells with an inverted point.
-std::vector<Index> NodalBody::crushed() const {
-  std::vector<Index> slots;
+/// Finds the local cells with an inverted point. Returns whether there is one on any rank.
+bool NodalBody::find_crushed(std::vector<Index>& slots) const {
   for (Index i = own().first; i < std::min(own().last, order_.particles); ++i)
     if (!(value(state_.change, i, 1) > 0)) slots.push_back(i);
-  return slots;
+  double any = slots.empty() ? 0 : 1;
+  if (shared()) comm::allreduce_max(any);
+  return any > 0;
 }
 
 /// A hole of the body has closed, or the step was too large.

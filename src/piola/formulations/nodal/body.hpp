@@ -122,7 +122,7 @@ class NodalBody {
   void make_pressure(Backend const& backend);
   void record_behind_axis();
   void agree_on_step(double change);
-  std::vector<Index> crushed() const;
+  bool find_crushed(std::vector<Index>& slots) const;
   bool failed() const { return failure_.index < order_.particles; }
 
   Body body_;

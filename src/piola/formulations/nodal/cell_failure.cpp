@@ -2,6 +2,7 @@
 #include "piola/formulations/nodal/cell_failure.hpp"
 #include "piola/domain/communicator.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace piola::nodal {
@@ -33,6 +34,11 @@ double& CellFailure::value(Index slot, int of) const {
 
 CellCondition CellFailure::condition(Index slot) const {
   return static_cast<CellCondition>(static_cast<int>(value(slot, FailureLayout::condition)));
+}
+
+/// The condition that a cell gets if its gradients do not serve any more.
+CellCondition CellFailure::next_condition(Index slot) const {
+  return condition(slot) == CellCondition::intact ? CellCondition::broken : CellCondition::detached;
 }
 
 /// By the stored gradients.
@@ -171,9 +177,8 @@ CellFailure::Changes CellFailure::set(Changes const& changes) {
     value(slot, FailureLayout::refitted) = 1;
   }
   Changes more;
-  for (Index const slot : found.unsolvable)
-    more.push_back({slot, condition(slot) == CellCondition::intact ? CellCondition::broken : CellCondition::detached});
-  for (Index const slot : found.changed) changed_.push_back(slot);
+  for (Index const slot : found.unsolvable) more.push_back({slot, next_condition(slot)});
+  changed_.insert(changed_.end(), found.changed.begin(), found.changed.end());
   return more;
 }
 
@@ -188,13 +193,13 @@ void CellFailure::take_over() {
 
 bool CellFailure::propagate(Changes changes) {
   bool any = false;
+  changed_.clear();
   for (changes = over_ranks(std::move(changes)); !changes.empty(); changes = over_ranks(std::move(changes))) {
     any = true;
-    changed_.clear();
     Changes more = set(changes);
     take_over();
     for (Index const slot : changed_)
-      if (value(slot, FailureLayout::refitted) > 0) more.push_back({slot, CellCondition::detached});
+      if (value(slot, FailureLayout::refitted) > 0) more.push_back({slot, next_condition(slot)});
     changes = std::move(more);
   }
   return any;
@@ -209,21 +214,30 @@ void CellFailure::find_contact() {
 
 void CellFailure::crush(std::vector<Index> const& slots) {
   Changes changes;
-  for (Index const slot : slots)
-    changes.push_back(
-        {slot, condition(slot) == CellCondition::intact ? CellCondition::broken : CellCondition::detached});
+  for (Index const slot : slots) changes.push_back({slot, next_condition(slot)});
   propagate(std::move(changes));
 }
 
-void CellFailure::load() {
+void CellFailure::save(StateWriter& writer, std::string const& name) const {
+  if (!body_.reference().refits) return;
+  std::vector<double> const pairs = fragments_.state();
+  writer.put(name + "_size", std::array{static_cast<double>(pairs.size())});
+  writer.put(name, pairs);
+}
+
+void CellFailure::load(StateReader& reader, std::string const& name) {
   if (!body_.reference().refits) return;
   Changes changes;
   for (Index i = body_.own().first; i < body_.own().last; ++i)
     if (condition(i) != CellCondition::intact) changes.push_back({i, condition(i)});
   changes = over_ranks(std::move(changes));
-  if (changes.empty()) return;
-  set(changes);
+  if (!changes.empty()) set(changes);
   for (Index i = body_.own().first; i < body_.own().last; ++i) value(i, FailureLayout::refitted) = 0;
+  std::array<double, 1> size{};
+  reader.get(name + "_size", size);
+  std::vector<double> pairs(static_cast<std::size_t>(size[0]));
+  reader.get(name, pairs);
+  fragments_.load(pairs);
   find_contact();
 }
 

@@ -24,8 +24,9 @@ class CellFailure {
   double contact_frequency2() const { return fragments_.frequency2(); }
   /// Lets local cells fail, at the start of a step that crushes them however short it is. Collective.
   void crush(std::vector<Index> const& slots);
-  /// After the state of the body was loaded. Collective.
-  void load();
+  void save(StateWriter& writer, std::string const& name) const;
+  /// After the fields of the body were loaded. Collective.
+  void load(StateReader& reader, std::string const& name);
   /// Particles that have lost their surface points: detached ones, and those near them, whose motion contact takes from
   /// that of detached ones, too. On all ranks alike.
   std::int64_t surfaces_lost() const { return lost_count_; }
@@ -36,6 +37,7 @@ class CellFailure {
 
   double& value(Index slot, int of) const;
   CellCondition condition(Index slot) const;
+  CellCondition next_condition(Index slot) const;
   double volume_ratio(Index slot) const;
   Changes find() const;
   void find_detached(Index slot, Changes& found) const;
@@ -56,7 +58,7 @@ class CellFailure {
   std::vector<char> broken_;      ///< per slot, on all ranks alike: the cell is not intact
   std::vector<char> lost_;        ///< per slot, on all ranks alike
   std::int64_t lost_count_ = 0;
-  std::vector<Index> changed_;  ///< local slots whose gradients the last change has changed
+  std::vector<Index> changed_;  ///< local slots whose gradients have changed since the last step
 };
 
 }  // namespace piola::nodal

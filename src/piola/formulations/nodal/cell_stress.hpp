@@ -21,6 +21,15 @@ struct CellStress {
   double spread[Points];  ///< tension of the points over that of the cell [Pa]
   double pressure;        ///< of the cell, positive in compression [Pa]
 
+  /// Stresses in lane l of a group of cells, which has S and spread of its points.
+  template <class Cells>
+  PIOLA_FN CellStress(Cells const& cells, Lanes const& of_cells, int l) : pressure(lane(of_cells, l)) {
+    for (int q = 0; q < Points; ++q) {
+      for (int c = 0; c < 6; ++c) S[q].c[c] = lane(cells.S[q].c[c], l);
+      spread[q] = lane(cells.spread[q], l);
+    }
+  }
+
   /// Largest principal stress, positive part, root mean square over the points; 0 if it cannot be larger than `least`
   /// [Pa]. With the mean over the points a crack takes the fracture energy however the strain is spread over them.
   PIOLA_FN double largest_principal(double least) const {

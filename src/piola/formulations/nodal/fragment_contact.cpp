@@ -13,13 +13,19 @@ constexpr double touching = 0.6, apart = 3;
 /// Stiffness, in units of the P-wave modulus times the volume of a cell over the square of the spacing.
 constexpr double stiffness = 0.5;
 
+double square_of(std::array<double, 3> const& a, std::array<double, 3> const& b) {
+  double sum = 0;
+  for (std::size_t c = 0; c < 3; ++c) sum += (b[c] - a[c]) * (b[c] - a[c]);
+  return sum;
+}
+
 }  // namespace
 
 void FragmentContact::add(Index slot) {
   if (known_.empty()) known_.resize(static_cast<std::size_t>(body_.slots()));
   char& known = known_[static_cast<std::size_t>(slot)];
   if (known != 0) return;
-  known = 1;
+  known = 2;
   slots_.insert(std::lower_bound(slots_.begin(), slots_.end(), slot), slot);
 }
 
@@ -36,20 +42,17 @@ void FragmentContact::evaluate() {
   for (std::size_t k = 0; k < x.size(); ++k) x[k] = body_.x(slots_[k]);
   std::vector<double> frequency(slots_.size());
   CellGrid const grid(x, touching * h);
-  auto const square = [](auto const& a, auto const& b) {
-    double sum = 0;
-    for (std::size_t c = 0; c < 3; ++c) sum += (b[c] - a[c]) * (b[c] - a[c]);
-    return sum;
-  };
   for (std::size_t k = 0; k < x.size(); ++k)
     grid.visit(x[k], [&](Index other) {
       auto const n = static_cast<std::size_t>(other);
-      double const r = n > k ? std::sqrt(square(x[k], x[n])) : h;
-      if (!(r > 0 && r < touching * h) || square(body_.X(slots_[k]), body_.X(slots_[n])) < apart * apart * h * h)
+      double const r = n > k ? std::sqrt(square_of(x[k], x[n])) : h;
+      if (!(r > 0 && r < touching * h) || square_of(body_.X(slots_[k]), body_.X(slots_[n])) < apart * apart * h * h)
         return;
+      double const closed = rest_of(slots_[k], slots_[n], r, touching * h) - r;
+      if (!(closed > 0)) return;
       Constants const& law = body_.material(slots_[k]).constants;
       double const m_k = body_.replicated_mass(slots_[k]), m_n = body_.replicated_mass(slots_[n]);
-      double const modulus = law.kappa + 4 * law.mu / 3, closed = touching * h - r,
+      double const modulus = law.kappa + 4 * law.mu / 3,
                    spring = stiffness * modulus * 0.5 * (m_k + m_n) / (law.rho0 * h * h);
       energy_ += 0.5 * spring * closed * closed;
       for (std::size_t c = 0; c < static_cast<std::size_t>(D); ++c) {
@@ -61,6 +64,44 @@ void FragmentContact::evaluate() {
       frequency[n] += spring * (1 / m_k + 1 / m_n);
     });
   frequency2_ = *std::max_element(frequency.begin(), frequency.end());
+  forget_parted(touching * h);
+  for (Index const slot : slots_) known_[static_cast<std::size_t>(slot)] = 1;
+}
+
+/// Distance from which a pair pushes [m], which is at the distance r: it grows while the pair parts.
+double FragmentContact::rest_of(Index a, Index b, double r, double touching) {
+  bool const is_new = known_[static_cast<std::size_t>(a)] == 2 || known_[static_cast<std::size_t>(b)] == 2;
+  auto const known = nearer_.find({a, b});
+  if (known != nearer_.end()) return known->second = std::max(known->second, r);
+  if (is_new) return nearer_[{a, b}] = r;
+  return touching;
+}
+
+/// Pairs that have been farther apart push like all others.
+void FragmentContact::forget_parted(double touching) {
+  int const D = body_.state().dimension;
+  std::erase_if(nearer_, [&](auto const& pair) {
+    double square = 0;
+    for (int c = 0; c < D; ++c) {
+      double const r = value_at(body_.state().x, pair.first.first, c) - value_at(body_.state().x, pair.first.second, c);
+      square += r * r;
+    }
+    return !(square < touching * touching);
+  });
+}
+
+std::vector<double> FragmentContact::state() const {
+  std::vector<double> all;
+  for (auto const& [pair, rest] : nearer_)
+    all.insert(all.end(), {static_cast<double>(pair.first), static_cast<double>(pair.second), rest});
+  return all;
+}
+
+void FragmentContact::load(std::vector<double> const& state) {
+  nearer_.clear();
+  for (std::size_t k = 0; k + 2 < state.size(); k += 3)
+    nearer_[{static_cast<Index>(state[k]), static_cast<Index>(state[k + 1])}] = state[k + 2];
+  for (Index const slot : slots_) known_[static_cast<std::size_t>(slot)] = 1;
 }
 
 void FragmentContact::kick(double dt) const {

@@ -145,6 +145,10 @@ Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters
     if (is_hypoelastic(material)) check_solid(material, stress_free, problems);
     check_failure(spec, material, problems);
   }
+  if (hyperelastic && std::any_of(materials.begin(), materials.end(), &fails))
+    problems.add({},
+                 "material: a part that fails and a hyperelastic one cannot be one body (allowed: solids in rate form, "
+                 "such as elastic) - take elastic for the hyperelastic part, or make the parts bodies and tie them");
   bool const implicit_pressure = word_of(spec, choices, "pressure") == "implicit";
   if (implicit_pressure) check_implicit(spec, materials, dimension, stress_free, problems);
   problems.raise_if_any();

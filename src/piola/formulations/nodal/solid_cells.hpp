@@ -196,22 +196,27 @@ class SolidCells {
   }
 
   /// Takes over gradients that have changed: stress and density stay, and the volume factor makes up for the change of
-  /// the volume ratio. A cell that the new gradients see crushed keeps its mark.
+  /// the volume ratio. A cell that the new gradients see crushed, or of quite another volume, keeps its mark.
   template <class Energy>
   PIOLA_FN void refit(Index i, Cell& cell, Energy const& energy) const {
     int const mark = Fields::failure_value(FailureLayout::refitted, D);
     auto const marked = history_.scalar<Lanes>(i, mark) > 0.5;
     if (!any(marked)) return;
     Lanes least = energy.J[0], before = Lanes(0.0);
-    for (int q = 1; q < points; ++q) least = minimum(least, energy.J[q]);
-    auto const changed = marked && least > least_ratio;
     for (int q = 0; q < points; ++q) {
+      least = minimum(least, energy.J[q]);
       before = before + (1.0 / points) * determinant(cell.F[q]);
-      for (int c = 0; c < 9; ++c) cell.F[q].c[c] = select(changed, energy.F[q].c[c], cell.F[q].c[c]);
     }
+    Lanes const most = select(cell.is_intact(), Lanes(most_change), Lanes(2 * most_change));
+    auto const changed =
+        marked && least > least_ratio && energy.mean_J < most * before && most * energy.mean_J > before;
+    for (int q = 0; q < points; ++q)
+      for (int c = 0; c < 9; ++c) cell.F[q].c[c] = select(changed, energy.F[q].c[c], cell.F[q].c[c]);
+    double is_changed[lane_count];
+    store(select(changed, Lanes(1.0), Lanes(0.0)), is_changed);
     cell.volume_factor = select(changed, cell.volume_factor * before / energy.mean_J, cell.volume_factor);
     for (int l = 0; l < lane_count; ++l) {
-      if (!owns(i + l) || !(history_.scalar<double>(i + l, mark) > 0.5) || !(lane(least, l) > least_ratio)) continue;
+      if (!owns(i + l) || is_changed[l] == 0) continue;
       history_out_.scalar(i + l, lane(cell.volume_factor, l), Fields::failure_value(FailureLayout::volume_factor, D));
       history_out_.scalar(i + l, 0.0, mark);
       for (int q = 0; q < points; ++q) {
@@ -256,7 +261,7 @@ class SolidCells {
       if (!owns(i + l) || !(lane(cell.condition, l) < 0.5)) continue;
       auto const value = [&](int of) { return history_.scalar<double>(i + l, Fields::failure_value(of, D)); };
       auto const put = [&](int of, double now) { history_out_.scalar(i + l, now, Fields::failure_value(of, D)); };
-      CellStress<points> const stress = stress_of(cell, pressure, l);
+      CellStress<points> const stress(cell, pressure, l);
       double const before = value(At::softening);
       double now = before;
       if (failure_.strength < unbounded) {
@@ -275,17 +280,6 @@ class SolidCells {
       carried[l] = 1 - now;
     }
     cell.carried = load<Lanes>(carried);
-  }
-
-  /// Stresses of the undamaged material in lane l.
-  PIOLA_FN static CellStress<points> stress_of(Cell const& cell, Lanes const& pressure, int l) {
-    CellStress<points> r;
-    r.pressure = lane(pressure, l);
-    for (int q = 0; q < points; ++q) {
-      for (int c = 0; c < 6; ++c) r.S[q].c[c] = lane(cell.S[q].c[c], l);
-      r.spread[q] = lane(cell.spread[q], l);
-    }
-    return r;
   }
 
   PIOLA_FN double mean_damage(Index i) const {
@@ -383,6 +377,7 @@ class SolidCells {
   }
 
   static constexpr double least_ratio = 0.05;    ///< of the volume of a cell that is not intact
+  static constexpr double most_change = 2;       ///< of the volume ratio of an intact cell by new gradients
   static constexpr double least_damage = 0.999;  ///< from which a cell softens
 
   void const* law_;

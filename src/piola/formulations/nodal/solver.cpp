@@ -249,6 +249,7 @@ void Solver::save(StateWriter& writer) const {
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     NodalBody const& body = *bodies_[k];
     save_fields(writer, k);
+    failures_[k]->save(writer, fmt::format("body{}_pieces", k));
     writer.put(fmt::format("body{}_step_limit", k), monitors_[k]->state());
     if (!descents_.empty()) writer.put(fmt::format("body{}_direction", k), descents_[k].state());
     writer.put(fmt::format("body{}_energy_books", k),
@@ -263,7 +264,7 @@ void Solver::load(StateReader& reader) {
     NodalBody& body = *bodies_[k];
     body.set_observed(false);
     load_fields(reader, k);
-    failures_[k]->load();
+    failures_[k]->load(reader, fmt::format("body{}_pieces", k));
     monitors_[k]->load(reader, fmt::format("body{}_step_limit", k));
     monitors_[k]->set_contact(failures_[k]->contact_frequency2());
     if (!descents_.empty()) descents_[k].load(reader, fmt::format("body{}_direction", k));
