@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/cell_failure.hpp"
 #include "piola/domain/communicator.hpp"
+#include "piola/formulations/nodal/field_set_up.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +9,7 @@
 namespace piola::nodal {
 namespace {
 
-/// A point of an intact cell, or the volume of a broken one, that is compressed further fails.
+/// Volume ratio below which a point breaks an intact cell, and the mean ratio detaches a broken one.
 constexpr double least_ratio = 0.1;
 /// The particle of a cell that is not intact is detached when it is farther from where an intact cell expects it, in
 /// spacings.
@@ -23,7 +24,6 @@ constexpr double beside_crack = 1.5;
 CellFailure::CellFailure(NodalBody& body, Backend const& backend) : body_(body), backend_(backend), fragments_(body) {
   if (!body_.reference().refits) return;
   near_crack_.resize(static_cast<std::size_t>(body_.slots()));
-  broken_.resize(near_crack_.size());
   lost_.resize(near_crack_.size());
   body_.on_crushed([this](std::vector<Index> const& slots) { crush(slots); });
 }
@@ -79,21 +79,21 @@ CellFailure::Changes CellFailure::find() const {
 void CellFailure::find_detached(Index slot, Changes& found) const {
   auto const& s = body_.state();
   auto const& r = body_.reference();
-  int const D = s.dimension, points = Fields::points(D);
+  int const D = s.dimension;
   double const h = *std::min_element(body_.body().spacing.begin(), body_.body().spacing.begin() + D);
+  double F[3][3];
+  for (int c = 0; c < D; ++c)
+    for (int J = 0; J < D; ++J) F[c][J] = body_.mean_of_points(slot, HistoryLayout::F + c * D + J);
   for (auto k = r.begin[static_cast<std::size_t>(slot)]; k < r.begin[static_cast<std::size_t>(slot) + 1]; ++k) {
     auto const at = static_cast<std::size_t>(k);
     Index const b = r.neighbour[at], owner = r.owner(b);
-    if (!(r.weight[at] > 0) || broken_[static_cast<std::size_t>(owner)] == 0) continue;
+    if (!(r.weight[at] > 0) || r.refits->is_intact(owner)) continue;
     double square = 0;
     for (int c = 0; c < D; ++c) {
       double apart = value_at(s.x, b, c) - value_at(s.x, slot, c);
       for (int J = 0; J < D; ++J) {
-        double F = 0;
-        for (int q = 0; q < points; ++q)
-          F += value_at(s.history, slot, HistoryLayout::point(q, D) + HistoryLayout::F + c * D + J) / points;
         auto const axis = static_cast<std::size_t>(J);
-        apart -= F * (value_at(s.X, b, J) - value_at(s.X, slot, J)) * body_.body().spacing[axis];
+        apart -= F[c][J] * (value_at(s.X, b, J) - value_at(s.X, slot, J)) * body_.body().spacing[axis];
       }
       square += apart * apart;
     }
@@ -133,11 +133,7 @@ void CellFailure::put(Refits::Change const& change) const {
   value(change.slot, FailureLayout::refitted) = 0;
   value_at(s.history, change.slot, HistoryLayout::pressure) = 0;
   value_at(s.history, change.slot, HistoryLayout::shock_pressure) = 0;
-  for (int q = 0; q < Fields::points(D); ++q) {
-    int const at = HistoryLayout::point(q, D) + HistoryLayout::F;
-    for (int c = 0; c < D * D; ++c) value_at(s.history, change.slot, at + c) = c % (D + 1) == 0 ? 1 : 0;
-    if (D == 2) value_at(s.history, change.slot, at + 4) = 1;
-  }
+  put_reference_shape(s.history, change.slot, D);
 }
 
 /// Copies the sums of gradients of a local cell, which the set-up data have, to the fields.
@@ -145,16 +141,12 @@ void CellFailure::put_gradients(Index slot) const {
   auto const& s = body_.state();
   auto const& r = body_.reference();
   int const D = s.dimension, second = Fields::second(D);
-  auto const copy = [&](LazyZeroArray<double> const& from, FieldRef const& to, int size) {
-    for (int c = 0; c < size; ++c)
-      value_at(to, slot, c) =
-          from[static_cast<std::size_t>(slot) * static_cast<std::size_t>(size) + static_cast<std::size_t>(c)];
-  };
-  copy(r.own, s.own, D + second);
-  copy(r.k, s.k, Fields::terms(D) * second);
-  if (s.has.axisymmetric) copy(r.hoop, s.hoop, static_cast<int>(HoopSums::size));
+  copy_at(r.own, s.own, D + second, slot);
+  copy_at(r.k, s.k, Fields::terms(D) * second, slot);
+  if (s.has.axisymmetric) copy_at(r.hoop, s.hoop, static_cast<int>(HoopSums::size), slot);
 }
 
+/// Marks the particles around a detached one.
 void CellFailure::lose_surfaces(Index detached) {
   for (Index const slot : body_.reference().refits->near(detached, host_reach)) {
     char& lost = lost_[static_cast<std::size_t>(slot)];
@@ -166,7 +158,6 @@ void CellFailure::lose_surfaces(Index detached) {
 CellFailure::Changes CellFailure::set(Changes const& changes) {
   for (Refits::Change const& change : changes) {
     put(change);
-    broken_[static_cast<std::size_t>(change.slot)] = 1;
     if (change.condition == CellCondition::detached) lose_surfaces(change.slot);
     for (Index const slot : body_.reference().refits->near(change.slot, beside_crack)) fragments_.add(slot);
   }

@@ -6,8 +6,8 @@
 
 namespace piola::nodal {
 
-/// Cells of a body that fail: finds them after each step, and takes over the gradients that the intact cells around
-/// have then. Stress, density and energy of these cells stay. Theory: docs/theory/nodal.md, "Failure".
+/// Finds the cells of a body that fail after each step, and changes the gradients of the cells around them. Stress,
+/// density and energy of those cells stay. Theory: docs/theory/nodal.md, "Failure".
 class CellFailure {
  public:
   /// Keeps references to both. Does nothing for a body whose cells cannot fail.
@@ -27,8 +27,8 @@ class CellFailure {
   void save(StateWriter& writer, std::string const& name) const;
   /// After the fields of the body were loaded. Collective.
   void load(StateReader& reader, std::string const& name);
-  /// Particles that have lost their surface points: detached ones, and those near them, whose motion contact takes from
-  /// that of detached ones, too. On all ranks alike.
+  /// Number of particles without surface points: detached ones, and those so near that contact would take their motion
+  /// from that of detached ones. On all ranks alike.
   std::int64_t surfaces_lost() const { return lost_count_; }
   bool has_lost_surface(Index slot) const { return !lost_.empty() && lost_[static_cast<std::size_t>(slot)] != 0; }
 
@@ -55,7 +55,6 @@ class CellFailure {
   Backend const& backend_;
   FragmentContact fragments_;
   std::vector<char> near_crack_;  ///< per slot, of local cells: gradients have changed
-  std::vector<char> broken_;      ///< per slot, on all ranks alike: the cell is not intact
   std::vector<char> lost_;        ///< per slot, on all ranks alike
   std::int64_t lost_count_ = 0;
   std::vector<Index> changed_;  ///< local slots whose gradients have changed since the last step

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/base/backend.hpp"
-#include "piola/formulations/nodal/state.hpp"
 #include "piola/materials/hypoelastic_solid.hpp"
 #include "piola/math/scalar.hpp"
 #include "piola/math/symmetric_eigen.hpp"
@@ -9,11 +8,6 @@
 
 /// Undamaged stresses of one cell that may fail. Theory: docs/theory/nodal.md, "Failure".
 namespace piola::nodal::inline PIOLA_BACKEND {
-
-/// Band of a crack through a cell, by the factor on its failure strength.
-PIOLA_FN CrackBand band_of(FailureConstants const& failure, double toughness) {
-  return crack_band(failure.strength * toughness, failure.energy, failure.modulus, failure.band);
-}
 
 template <int Points>
 struct CellStress {
@@ -48,11 +42,6 @@ struct CellStress {
       square += most * most / Points;
     }
     return square_root(square);
-  }
-
-  /// The larger of `largest`, that of all steps so far [Pa], and the present one, where it matters.
-  PIOLA_FN double largest_since(double largest, FailureConstants const& failure, double toughness) const {
-    return maximum(largest, largest_principal(maximum(largest, band_of(failure, toughness).strength)));
   }
 
   /// Energy of shear and tension per volume, for these moduli [J/m^3].

@@ -19,16 +19,10 @@ void CrackLines::set(std::size_t a, CellCondition condition) {
   any_ = any_ || condition != CellCondition::intact;
 }
 
-double CrackLines::square_of_distance(std::size_t a, std::size_t b) const {
-  double square = 0;
-  for (std::size_t c = 0; c < 3; ++c) square += (X_[b][c] - X_[a][c]) * (X_[b][c] - X_[a][c]);
-  return square;
-}
-
 bool CrackLines::block(std::size_t a, std::size_t b) const {
   if (!any_ || a == b) return false;
   if (condition_[a] == CellCondition::detached || condition_[b] == CellCondition::detached) return true;
-  double const square = square_of_distance(a, b);
+  double const square = square_of_distance(X_, a, b);
   if (square < nearest * nearest) return false;
   std::array<double, 3> middle{}, along{};
   for (std::size_t c = 0; c < 3; ++c) {

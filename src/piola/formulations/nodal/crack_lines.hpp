@@ -32,13 +32,11 @@ class CrackLines {
   void each_near(std::size_t of, double reach, F const& f) const {
     grid_.visit(X_[of], [&](Index other) {
       auto const a = static_cast<std::size_t>(other);
-      if (square_of_distance(of, a) < reach * reach) f(a);
+      if (square_of_distance(X_, of, a) < reach * reach) f(a);
     });
   }
 
  private:
-  double square_of_distance(std::size_t a, std::size_t b) const;
-
   Points const& X_;
   std::vector<CellCondition> condition_;
   CellGrid grid_;

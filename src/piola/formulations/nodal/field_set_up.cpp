@@ -5,15 +5,19 @@
 #include <algorithm>
 
 namespace piola::nodal {
-namespace {
-
 void copy_at(LazyZeroArray<double> const& from, FieldRef const& to, int components, Index i) {
   auto const size = static_cast<std::size_t>(components);
   for (std::size_t c = 0; c < size; ++c)
     value_at(to, i, static_cast<int>(c)) = from[static_cast<std::size_t>(i) * size + c];
 }
 
-}  // namespace
+void put_reference_shape(FieldRef const& history, Index i, int D) {
+  for (int q = 0; q < Fields::points(D); ++q) {
+    int const at = HistoryLayout::point(q, D) + HistoryLayout::F;
+    for (int c = 0; c < D * D; ++c) value_at(history, i, at + c) = c % (D + 1) == 0 ? 1 : 0;
+    if (D == 2) value_at(history, i, at + 4) = 1;
+  }
+}
 
 void FieldSetUp::fill_reference() {
   auto& r = reference_;
@@ -75,15 +79,11 @@ void FieldSetUp::fill_histories() {
   int const D = s_.dimension;
   for (MaterialRange const& range : std::span(s_.materials, static_cast<std::size_t>(s_.material_count)))
     with_solid(range.material, [&](auto const& law) {
-      for (Index i = std::max(range.first, body_.own().first); i < std::min(range.last, body_.own().last); ++i)
-        for (int q = 0; q < Fields::points(D); ++q) {
-          int const at = HistoryLayout::point(q, D);
-          value_at(s_.history, i, at + HistoryLayout::temperature) = law.initial_temperature();
-          for (int c = 0; c < D; ++c) value_at(s_.history, i, at + HistoryLayout::F + c * (D + 1)) = 1;
-          if (D == 2) value_at(s_.history, i, at + HistoryLayout::F + 4) = 1;
-        }
-      if (!s_.has.failure) return;
       for (Index i = std::max(range.first, body_.own().first); i < std::min(range.last, body_.own().last); ++i) {
+        for (int q = 0; q < Fields::points(D); ++q)
+          value_at(s_.history, i, HistoryLayout::point(q, D) + HistoryLayout::temperature) = law.initial_temperature();
+        put_reference_shape(s_.history, i, D);
+        if (!s_.has.failure) continue;
         auto const id = static_cast<std::size_t>(body_.id(i));
         auto const put = [&](int of, double number) { value_at(s_.history, i, Fields::failure_value(of, D)) = number; };
         put(FailureLayout::volume_factor, 1);

@@ -6,6 +6,11 @@
 
 namespace piola::nodal {
 
+/// Copies the values of a slot, `components` of them, from set-up data to a field.
+void copy_at(LazyZeroArray<double> const& from, FieldRef const& to, int components, Index i);
+/// Sets the deformation gradients of the points of a cell in the field `history` to those of the reference shape.
+void put_reference_shape(FieldRef const& history, Index i, int D);
+
 /// Fills the fields of a body that has its memory: reference data, then the state of t = 0. Exists only while the body
 /// is constructed.
 class FieldSetUp {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/fragment_contact.hpp"
 #include "piola/domain/slot_collectives.hpp"
+#include "piola/formulations/nodal/local_fits.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <cmath>
@@ -12,12 +13,6 @@ namespace {
 constexpr double touching = 0.6, apart = 3;
 /// Stiffness, in units of the P-wave modulus times the volume of a cell over the square of the spacing.
 constexpr double stiffness = 0.5;
-
-double square_of(std::array<double, 3> const& a, std::array<double, 3> const& b) {
-  double sum = 0;
-  for (std::size_t c = 0; c < 3; ++c) sum += (b[c] - a[c]) * (b[c] - a[c]);
-  return sum;
-}
 
 }  // namespace
 
@@ -45,8 +40,9 @@ void FragmentContact::evaluate() {
   for (std::size_t k = 0; k < x.size(); ++k)
     grid.visit(x[k], [&](Index other) {
       auto const n = static_cast<std::size_t>(other);
-      double const r = n > k ? std::sqrt(square_of(x[k], x[n])) : h;
-      if (!(r > 0 && r < touching * h) || square_of(body_.X(slots_[k]), body_.X(slots_[n])) < apart * apart * h * h)
+      double const r = n > k ? std::sqrt(square_of_distance(x[k], x[n])) : h;
+      if (!(r > 0 && r < touching * h) ||
+          square_of_distance(body_.X(slots_[k]), body_.X(slots_[n])) < apart * apart * h * h)
         return;
       double const closed = rest_of(slots_[k], slots_[n], r, touching * h) - r;
       if (!(closed > 0)) return;
@@ -79,14 +75,9 @@ double FragmentContact::rest_of(Index a, Index b, double r, double touching) {
 
 /// Pairs that have been farther apart push like all others.
 void FragmentContact::forget_parted(double touching) {
-  int const D = body_.state().dimension;
   std::erase_if(nearer_, [&](auto const& pair) {
-    double square = 0;
-    for (int c = 0; c < D; ++c) {
-      double const r = value_at(body_.state().x, pair.first.first, c) - value_at(body_.state().x, pair.first.second, c);
-      square += r * r;
-    }
-    return !(square < touching * touching);
+    auto const [a, b] = pair.first;
+    return !(square_of_distance(body_.x(a), body_.x(b)) < touching * touching);
   });
 }
 

@@ -215,6 +215,12 @@ double GradientTables<D>::first_derivative(std::size_t a, std::size_t k, std::si
   return fluxes_.flux(a, k, static_cast<int>(J)) / (volume(a) * scaled_.h[J]);
 }
 
+/// Component J of V_a G_ab of pair k of a, which enters the force of a on b.
+template <int D>
+double GradientTables<D>::reaction(std::size_t a, std::size_t k, std::size_t J) const {
+  return fluxes_.flux(a, k, static_cast<int>(J)) * scaled_.h_volume / scaled_.h[J];
+}
+
 template <int D>
 typename GradientTables<D>::Gradient GradientTables<D>::gradient(std::size_t a, std::size_t k,
                                                                  double const* second_of) const {
@@ -249,9 +255,8 @@ void GradientTables<D>::fill_pairs() {
     for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
       std::size_t const b = pairs.at(k), back = opposite(a, b);
       for (std::size_t J = 0; J < dimension; ++J) {
-        double const h = scaled_.h[J];
         to_.gradient[(k - before) * dimension + J] = first_derivative(a, k, J);
-        to_.reaction[(k - before) * dimension + J] = fluxes_.flux(b, back, static_cast<int>(J)) * scaled_.h_volume / h;
+        to_.reaction[(k - before) * dimension + J] = reaction(b, back, J);
       }
     }
   });
@@ -261,18 +266,21 @@ template <int D>
 void GradientTables<D>::refill(std::vector<std::size_t> const& particles) {
   auto const& pairs = fits_.pairs();
   std::size_t const before = pairs.first(first_);
-  for (LazyZeroArray<double>* array : {&to_.own, &to_.k, &to_.hoop})
-    if (array->empty())
-      *array = LazyZeroArray<double>(slots_ * (array == &to_.own ? numbers
-                                               : array == &to_.k ? terms * second
-                                                                 : HoopSums::size));
+  bool const has_hoop = !scaled_.sections.empty();
+  if (to_.own.empty()) {
+    to_.own = LazyZeroArray<double>(slots_ * numbers);
+    to_.k = LazyZeroArray<double>(slots_ * terms * second);
+    if (has_hoop) to_.hoop = LazyZeroArray<double>(slots_ * HoopSums::size);
+  }
   for (std::size_t const a : particles) {
     if (is_local(a)) {
       std::fill_n(&to_.own[a * numbers], numbers, 0.0);
-      std::fill_n(&to_.hoop[a * HoopSums::size], HoopSums::size, 0.0);
       fill_own(a);
       fill_second(a, &to_.k[a * terms * second]);
-      if (!scaled_.sections.empty()) fill_hoop(a);
+      if (has_hoop) {
+        std::fill_n(&to_.hoop[a * HoopSums::size], HoopSums::size, 0.0);
+        fill_hoop(a);
+      }
     }
     for (std::size_t k = pairs.first(a); k < pairs.end(a); ++k) {
       std::size_t const b = pairs.at(k);
@@ -284,8 +292,7 @@ void GradientTables<D>::refill(std::vector<std::size_t> const& particles) {
       if (!is_local(b)) continue;
       std::size_t const back = opposite(a, b) - before;
       to_.back_weight[back] = pairs.weight[k];
-      for (std::size_t J = 0; J < dimension; ++J)
-        to_.reaction[back * dimension + J] = fluxes_.flux(a, k, static_cast<int>(J)) * scaled_.h_volume / scaled_.h[J];
+      for (std::size_t J = 0; J < dimension; ++J) to_.reaction[back * dimension + J] = reaction(a, k, J);
     }
   }
 }

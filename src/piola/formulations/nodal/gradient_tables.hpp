@@ -15,8 +15,8 @@ class GradientTables {
   /// mass: over that of a spacing. lattice: the one that loops use, if any. Moves the pairs out of the fits, except
   /// those of a body whose cells may fail.
   void operator()(LazyZeroArray<double> const& mass, std::optional<LatticeShape> const& lattice);
-  /// Takes over the gradients of these particles again, after cells have failed. Of Reference the lists are valid
-  /// afterwards, and `own`, `k` and `hoop` of these particles.
+  /// Writes the gradients of these particles again, after cells have failed. Afterwards the lists of Reference are
+  /// valid, and its `own`, `k` and `hoop` for these particles.
   void refill(std::vector<std::size_t> const& particles);
   bool is_local(std::size_t a) const { return a >= first_ && a < last_; }
 
@@ -47,6 +47,7 @@ class GradientTables {
 
   double volume(std::size_t a) const;
   double first_derivative(std::size_t a, std::size_t k, std::size_t J) const;
+  double reaction(std::size_t a, std::size_t k, std::size_t J) const;
   /// (G_ab, K_ab) of pair k of a, with k of a.
   Gradient gradient(std::size_t a, std::size_t k, double const* second_of) const;
   /// Position of a in the pairs of b. Precondition: they are neighbours.

@@ -19,6 +19,7 @@ constexpr double flattest = 1e-3;
 constexpr double worst_condition = 1e4;
 /// Beside cracks, where a linear fit is the alternative.
 constexpr double worst_beside_cracks = 300;
+
 double weight_of(double square, double reach) {
   double const inside = 1 - square / (reach * reach);
   return inside * inside / (square * std::sqrt(square));
@@ -187,15 +188,22 @@ typename LocalFits<D>::Monomials LocalFits<D>::monomials_of(std::size_t a, std::
   return result;
 }
 
+/// Adds sum_b s p p^T of the first N monomials.
+template <int D>
+template <int N>
+void LocalFits<D>::add_normal_matrix(std::size_t a, double (&A)[N * N]) const {
+  for (std::size_t k = pairs_.first(a); k < pairs_.end(a); ++k) {
+    auto const p = monomials_of(a, pairs_.at(k));
+    for (int i = 0; i < N; ++i)
+      for (int j = 0; j < N; ++j)
+        A[i * N + j] += pairs_.weight[k] * p[static_cast<std::size_t>(i)] * p[static_cast<std::size_t>(j)];
+  }
+}
+
 template <int D>
 bool LocalFits<D>::fit(std::size_t a, std::size_t at) {
   double A[terms * terms]{}, inverse[terms * terms];
-  for (std::size_t k = pairs_.first(a); k < pairs_.end(a); ++k) {
-    auto const p = monomials_of(a, pairs_.at(k));
-    for (int i = 0; i < terms; ++i)
-      for (int j = 0; j < terms; ++j)
-        A[i * terms + j] += pairs_.weight[k] * p[static_cast<std::size_t>(i)] * p[static_cast<std::size_t>(j)];
-  }
+  add_normal_matrix<terms>(a, A);
   if (!(invert<terms>(A, inverse) > 1e-12)) return false;
   std::copy(inverse, inverse + terms * terms, inverse_.begin() + static_cast<std::ptrdiff_t>(at * terms * terms));
   return worst_of(at) < worst_condition;
@@ -213,12 +221,7 @@ double LocalFits<D>::worst_of(std::size_t at) const {
 template <int D>
 bool LocalFits<D>::fit_linear(std::size_t a) {
   double A[D * D]{}, inverse[D * D];
-  for (std::size_t k = pairs_.first(a); k < pairs_.end(a); ++k) {
-    auto const p = monomials_of(a, pairs_.at(k));
-    for (int i = 0; i < D; ++i)
-      for (int j = 0; j < D; ++j)
-        A[i * D + j] += pairs_.weight[k] * p[static_cast<std::size_t>(i)] * p[static_cast<std::size_t>(j)];
-  }
+  add_normal_matrix<D>(a, A);
   double const size = invert<D>(A, inverse);
   for (int i = 0; i < terms; ++i)
     for (int j = 0; j < terms; ++j)

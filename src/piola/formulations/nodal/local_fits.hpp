@@ -38,7 +38,10 @@ struct Pairs {
 /// Neighbours at exactly the support radius do not count, whatever the round-off of positions in a lattice.
 inline constexpr double nearly = 1 - 1e-9;
 
-double square_of_distance(Points const& X, std::size_t a, std::size_t b);
+double square_of_distance(std::array<double, 3> const& a, std::array<double, 3> const& b);
+inline double square_of_distance(Points const& X, std::size_t a, std::size_t b) {
+  return square_of_distance(X[a], X[b]);
+}
 
 /// Largest support radius: beyond it a body has too few particles across.
 inline constexpr double longest_reach = 5;
@@ -154,6 +157,8 @@ class LocalFits {
   void find_cloud();
   /// Enlarges the support radii of failed fits. Returns whether all fits are good.
   bool lengthen(std::vector<char> const& fits);
+  template <int N>
+  void add_normal_matrix(std::size_t a, double (&A)[N * N]) const;
   /// Computes the inverse of particle a and stores it at `at`.
   bool fit(std::size_t a, std::size_t at);
   /// Largest entry on the diagonal of the inverse that is stored at `at`.

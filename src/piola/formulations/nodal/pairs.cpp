@@ -15,9 +15,9 @@ void add_up(std::vector<std::int64_t>& begin) {
 
 }  // namespace
 
-double square_of_distance(Points const& X, std::size_t a, std::size_t b) {
+double square_of_distance(std::array<double, 3> const& a, std::array<double, 3> const& b) {
   double square = 0;
-  for (std::size_t c = 0; c < 3; ++c) square += (X[b][c] - X[a][c]) * (X[b][c] - X[a][c]);
+  for (std::size_t c = 0; c < 3; ++c) square += (b[c] - a[c]) * (b[c] - a[c]);
   return square;
 }
 

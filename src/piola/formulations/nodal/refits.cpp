@@ -20,13 +20,13 @@ std::vector<std::size_t> RefitsOf<D>::set_conditions(std::vector<Change> const& 
   return failed;
 }
 
-/// Fits a point again. Returns whether it sees others than before.
+/// Fits a point again.
 template <int D>
-bool RefitsOf<D>::refit(std::size_t a) {
+typename RefitsOf<D>::Refit RefitsOf<D>::refit(std::size_t a) {
   auto const& pairs = fits_.pairs();
   std::vector<double> const before(pairs.weight.begin() + pairs.begin[a], pairs.weight.begin() + pairs.begin[a + 1]);
-  solvable_ = fits_.refit(a);
-  return !std::equal(before.begin(), before.end(), pairs.weight.begin() + pairs.begin[a]);
+  bool const solvable = fits_.refit(a);
+  return {!std::equal(before.begin(), before.end(), pairs.weight.begin() + pairs.begin[a]), solvable};
 }
 
 template <int D>
@@ -44,10 +44,11 @@ Refits::Found RefitsOf<D>::set(std::vector<Change> const& changes) {
       affected.push_back(a);
       continue;
     }
-    if (!refit(a)) continue;
+    auto const [sees_others, solvable] = refit(a);
+    if (!sees_others) continue;
     affected.push_back(a);
     changed.push_back(a);
-    if (!solvable_ && tables_->is_local(a) && cracks_.condition(a) != CellCondition::detached)
+    if (!solvable && tables_->is_local(a) && cracks_.condition(a) != CellCondition::detached)
       found.unsolvable.push_back(static_cast<Index>(a));
   }
   std::vector<std::size_t> rows = changed;

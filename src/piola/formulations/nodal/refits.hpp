@@ -38,10 +38,15 @@ class RefitsOf final : public Refits {
 
   Found set(std::vector<Change> const& changes) override;
   std::vector<Index> near(Index slot, double reach) const override;
+  bool is_intact(Index slot) const override { return cracks_.is_intact(static_cast<std::size_t>(slot)); }
 
  private:
   std::vector<std::size_t> set_conditions(std::vector<Change> const& changes);
-  bool refit(std::size_t a);
+  struct Refit {
+    bool sees_others;  ///< others than before
+    bool solvable;     ///< they determine a gradient
+  };
+  Refit refit(std::size_t a);
 
   SetUp from_;
   ScaledBody scaled_;
@@ -50,7 +55,6 @@ class RefitsOf final : public Refits {
   FacetFluxes<D> fluxes_;
   std::optional<GradientTables<D>> tables_;
   std::vector<Index> source_of_image_;
-  bool solvable_ = true;  ///< whether the last fit determined a gradient
 };
 
 extern template class RefitsOf<1>;

@@ -84,6 +84,8 @@ class Refits {
   virtual Found set(std::vector<Change> const& changes) = 0;
   /// Slots of the particles nearer to that of `slot` than `reach` spacings, itself included.
   virtual std::vector<Index> near(Index slot, double reach) const = 0;
+  /// Whether the cell of any slot is intact, on all ranks alike.
+  virtual bool is_intact(Index slot) const = 0;
 };
 
 /// The undeformed body for the loops: values per slot, in the order of Fields. On ranks: of local slots, and V and X of

@@ -26,7 +26,7 @@ class SolidCells {
     as_left,  ///< the stress at the end of the last step
     trial,    ///< of a trial step, which stores no state and has no yield
     end,      ///< at the end of a step, whose state is stored
-    refitted  ///< as left, seen through gradients that have changed, whose F is stored
+    refitted  ///< as left, with gradients that have changed, whose F is stored
   };
 
   /// For the particles of a material, dt [s] after the last step. `law` must outlive this.
@@ -106,7 +106,7 @@ class SolidCells {
   }
 
   /// P_q = (S_q + (spread_q - pressure) I) cof F_q [Pa]; of cells that may fail what is carried of S_q and spread_q,
-  /// and times the volume factor. The pressure is what it is.
+  /// and times the volume factor. The pressure is used as given.
   PIOLA_FN void stresses(Cell const& cell, Lanes const& pressure, Mat<3, Lanes> (&P)[points]) const {
     for (int q = 0; q < points; ++q) {
       if (!fails_) {
@@ -265,10 +265,12 @@ class SolidCells {
       double const before = value(At::softening);
       double now = before;
       if (failure_.strength < unbounded) {
+        CrackBand const band =
+            crack_band(failure_.strength * lane(cell.toughness, l), failure_.energy, failure_.modulus, failure_.band);
         double const largest = value(At::largest_stress);
-        double const most = stress.largest_since(largest, failure_, lane(cell.toughness, l));
+        double const most = maximum(largest, stress.largest_principal(maximum(largest, band.strength)));
         if (most > largest) put(At::largest_stress, most);
-        now = maximum(now, band_of(failure_, lane(cell.toughness, l)).softening(most));
+        now = maximum(now, band.softening(most));
       }
       if (failure_.damages && mean_damage(i + l) > least_damage)
         now = maximum(now,
