@@ -20,8 +20,9 @@ class CoupledParticles {
                                std::span<std::array<double, 3> const> /*normals*/, std::span<double> /*areas*/) const {}
   /// Adds to velocities, also to prescribed ones [m/s].
   virtual void add_velocities(std::span<std::int64_t const> ids, std::span<std::array<double, 3> const> change) = 0;
-  /// Number of particles that have lost their surface points since the start, because they or a reference neighbour
-  /// became Eulerian. The formulation itself then keeps such particles apart from other bodies.
+  /// Number of particles that have lost their surface points since the start, because they or a neighbour became
+  /// Eulerian or came off. Formulations with contact of their own keep such particles apart from other bodies;
+  /// ContactCoupling does so for the rest.
   virtual std::int64_t surfaces_lost() const { return 0; }
   virtual bool has_lost_surface(std::int64_t /*id*/) const { return false; }
 };

@@ -32,6 +32,12 @@ struct Passage {
   std::int64_t points = 0;
 };
 
+/// Particles of a body that have lost their surface points and that nothing keeps apart from others.
+struct UncoveredParticles {
+  std::string of, from;  ///< the body, and the others, e.g. body "plate", rigid shapes
+  std::int64_t particles = 0;
+};
+
 /// Integral quantities of the whole system at one time, SI units.
 struct Diagnostics {
   double kinetic_energy = 0;                 ///< J
@@ -50,6 +56,7 @@ struct Diagnostics {
   std::vector<Action> actions;
   std::vector<RigidState> rigids;  ///< free or rotating shapes
   std::vector<Passage> passages;
+  std::vector<UncoveredParticles> uncovered;
   double total_energy() const { return kinetic_energy + strain_energy; }
 };
 

@@ -137,11 +137,14 @@ class OverlapGuard : public LargestGuard {
   void look(GuardInput const& look) override {
     LargestGuard::look(look);
     passages_ = look.now.passages;
+    uncovered_ = look.now.uncovered;
     looked_at_ = look.moment.time;
   }
   std::string words() const override {
-    std::string const deep = words_of_depth(), through = words_of_passages();
-    return deep.empty() || through.empty() ? deep + through : through + "; " + deep;
+    std::string all;
+    for (std::string const& words : {words_of_passages(), words_of_uncovered(), words_of_depth()})
+      if (!words.empty()) all += (all.empty() ? "" : "; ") + words;
+    return all;
   }
   std::optional<GuardNumbers> numbers() const override {
     std::optional<GuardNumbers> n = LargestGuard::numbers();
@@ -171,9 +174,17 @@ class OverlapGuard : public LargestGuard {
         "two, a stiffer contact (scale) or less speed",
         all, looked_at_);
   }
+  std::string words_of_uncovered() const {
+    std::string all;
+    for (UncoveredParticles const& p : uncovered_)
+      all += fmt::format("{}{} particle{} of {} came off, and nothing keeps {} apart from {}", all.empty() ? "" : ", ",
+                         p.particles, p.particles == 1 ? "" : "s", p.of, p.particles == 1 ? "it" : "them", p.from);
+    return all;
+  }
 
   double limit_, looked_at_ = 0;
   std::vector<Passage> passages_;
+  std::vector<UncoveredParticles> uncovered_;
 };
 
 /// Strain drift: strain of the cells between particles that their stress does not have (Taylor-SPH).

@@ -33,14 +33,16 @@ void ContactCoupling::start(Formulations const& formulations) {
   particles_.read_motion(formulations);
   system_.set_masses(particles_.surface_masses());
   fit_areas(formulations);
-  system_.drop(particles_.find_lost_surfaces(formulations));
+  find_lost_surfaces(formulations);
   std::vector<Vec<3>> const& x = particles_.x();
   ties_.start(system_, x, particles_.masses());
-  if (loaded_.empty()) {
+  if (loaded_.surfaces.empty()) {
     system_.start(x);
     motion_.start(system_);
   } else {
-    system_.restore(x, std::exchange(loaded_, {}));
+    system_.restore(x, loaded_.surfaces);
+    colours_.load(loaded_.colours);
+    loaded_ = {};
   }
   colours_.evaluate(x, particles_.masses());
   sum_forces();
@@ -76,11 +78,25 @@ void ContactCoupling::fit_areas(Formulations const& formulations) {
   }
 }
 
+/// Particles that have lost their surface in the last step leave surface contact and enter colour contact.
+void ContactCoupling::find_lost_surfaces(Formulations const& formulations) {
+  std::vector<char> const lost = particles_.find_lost_surfaces(formulations);
+  if (lost.empty()) return;
+  system_.drop({lost.begin(), lost.begin() + static_cast<std::ptrdiff_t>(system_.ids().size())});
+  lost_.count(lost, particles_.ids());
+  bool const first = !colours_.any();
+  colours_.add_targets(lost);
+  if (!first || !colours_.any()) return;
+  particles_.read_late();
+  particles_.read_masses(formulations);
+  particles_.read_motion(formulations);
+}
+
 /// Contact and ties together.
 void ContactCoupling::sum_forces() {
   auto& [forces, loaded] = forces_;
   for (Index const k : loaded) forces[static_cast<std::size_t>(k)] = {};
-  forces.resize(particles_.count());
+  forces.resize(particles_.x().size());
   loaded.clear();
   std::set_union(system_.loaded_indices().begin(), system_.loaded_indices().end(), ties_.loaded_indices().begin(),
                  ties_.loaded_indices().end(), std::back_inserter(loaded));
@@ -168,7 +184,7 @@ void ContactCoupling::finish(Formulations const& formulations, double time, doub
   PIOLA_EXPECTS(formulations.size() == particles_.group_count() && dt > 0);
   if (colours_.any()) particles_.read_masses(formulations);  // deleted particles have none
   particles_.read_motion(formulations);
-  system_.drop(particles_.find_lost_surfaces(formulations));
+  find_lost_surfaces(formulations);
   ties_.evaluate(system_, particles_.x());
   system_.evaluate(particles_.x(), dt);
   ties_.transfer_energy(system_);
@@ -248,6 +264,7 @@ void ContactCoupling::report(Diagnostics& sum) const {
                              : "the rigid shape " + in_quotes(shapes_[k - names_.size()].name);
   };
   for (contact::Passed const& p : system_.passed()) sum.passages.push_back({named(p.of), named(p.through), p.points});
+  lost_.report(sum);
 }
 
 std::vector<FieldInfo> contact_fields() { return field_infos(offered_by_contact); }
@@ -258,7 +275,7 @@ bool ContactCoupling::sample(std::string_view field, std::span<double> values) c
   OutputField const& observed = find_output_field(field, offered_by_contact);
   for (auto const& at : system_.at_particles()) {
     auto const place = std::lower_bound(system_.ids().begin(), system_.ids().end(), at.id) - system_.ids().begin();
-    auto const id = particles_.id(static_cast<std::size_t>(place));
+    auto const id = particles_.ids()[static_cast<std::size_t>(place)];
     if (id < 0) continue;
     ParticleOutput p;
     p.id = static_cast<double>(id);

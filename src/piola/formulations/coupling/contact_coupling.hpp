@@ -5,6 +5,7 @@
 #include "piola/formulations/coupling/contact_particles.hpp"
 #include "piola/formulations/coupling/coupled_formulations.hpp"
 #include "piola/formulations/coupling/held_directions.hpp"
+#include "piola/formulations/coupling/lost_surfaces.hpp"
 #include "piola/formulations/coupling/pair_impulses.hpp"
 #include "piola/formulations/coupling/tie_coupling.hpp"
 #include "piola/mechanics/contact/colour_contact.hpp"
@@ -69,6 +70,7 @@ class ContactCoupling {
   double contact_time_step() const;
   void fit_areas(Formulations const& formulations);
   void sum_forces();
+  void find_lost_surfaces(Formulations const& formulations);
 
   std::vector<std::string> names_;  ///< of bodies
   std::vector<RigidShape> shapes_;
@@ -76,12 +78,16 @@ class ContactCoupling {
   contact::RigidMotion motion_;
   TieCoupling ties_;
   ContactParticles particles_;
+  LostSurfaces lost_;
   contact::ColourContact colours_;
   HeldDirections held_;
   Resultants actions_;
   PairImpulses pair_impulses_;
-  SparseVectors forces_;        ///< of contact and ties [N]
-  std::vector<double> loaded_;  ///< from a checkpoint, until the state of the bodies is loaded
+  SparseVectors forces_;  ///< of contact and ties [N]
+  /// From a checkpoint, until the state of the bodies is loaded.
+  struct Loaded {
+    std::vector<double> surfaces, colours;
+  } loaded_;
   double work_ = 0, friction_work_ = 0, chatter_loss_ = 0, last_dt_ = 0, closing_ = 0;
 };
 

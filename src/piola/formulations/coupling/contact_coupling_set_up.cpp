@@ -133,24 +133,49 @@ std::vector<std::string> names_of(ParticleSet const& particles) {
   return names;
 }
 
+bool contains(LostSurfaces::Pairs const& pairs, std::size_t body) {
+  return std::any_of(pairs.begin(), pairs.end(), [&](auto const& pair) { return pair.a == body || pair.b == body; });
+}
+
+/// Appends the particles without surface points that colour contact of `pairs` and the lost surfaces need.
+void append_particles(Assembly const& whole, LostSurfaces::Pairs const& pairs, LostSurfaces const& lost,
+                      ContactParticles& to) {
+  std::map<std::int64_t, Index> known = to.indices();
+  auto const append = [&](std::size_t b, bool late) {
+    Body const& body = whole.particles.bodies[b];
+    for (auto id = body.first; id < body.last; ++id) {
+      if (!known.emplace(id, 0).second) continue;
+      if (late)
+        to.append_late(id);
+      else
+        to.append(id);
+    }
+  };
+  std::size_t const bodies = whole.particles.bodies.size();
+  for (std::size_t b = 0; b < bodies; ++b)
+    if (contains(pairs, b)) append(b, false);
+  for (std::size_t b = 0; b < bodies; ++b)
+    if (lost.may_lose(b) || contains(lost.pairs(), b)) append(b, true);
+}
+
 /// Colour contact of the run. Appends its particles to `contact_particles`.
-contact::ColourContact colour_contact_of(Assembly const& whole, ContactParticles& contact_particles) {
+contact::ColourContact colour_contact_of(Assembly const& whole, LostSurfaces const& lost,
+                                         ContactParticles& contact_particles) {
   PIOLA_EXPECTS(whole.materials.size() == whole.particles.bodies.size());
-  std::vector<contact::ColourContact::Pair> const pairs = coloured_pairs(whole);
+  LostSurfaces::Pairs pairs = coloured_pairs(whole);
+  append_particles(whole, pairs, lost, contact_particles);
+  pairs.insert(pairs.end(), lost.pairs().begin(), lost.pairs().end());
   if (pairs.empty()) return {};
-  std::map<std::int64_t, Index> at = contact_particles.indices();
+  std::map<std::int64_t, Index> const at = contact_particles.indices();
   ParticleSet const& particles = whole.particles;
   std::vector<contact::ColourContact::Body> bodies(particles.bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (std::none_of(pairs.begin(), pairs.end(), [&](auto const& pair) { return pair.a == b || pair.b == b; }))
-      continue;
+    if (!contains(pairs, b)) continue;
     Body const& body = particles.bodies[b];
     bodies[b].spacing = *std::max_element(body.spacing.begin(), body.spacing.begin() + particles.dimension);
     with_any_law(whole.materials[b], [&](auto const& law) { bodies[b].modulus = law.kappa + 4.0 / 3 * law.mu; });
     for (auto id = body.first; id < body.last; ++id) {
-      auto const [entry, fresh] = at.try_emplace(id, static_cast<Index>(contact_particles.count()));
-      if (fresh) contact_particles.append(id);
-      bodies[b].at.push_back(entry->second);
+      bodies[b].at.push_back(at.at(id));
       bodies[b].volume.push_back(particles.volume[static_cast<std::size_t>(id)]);
     }
   }
@@ -170,7 +195,8 @@ ContactCoupling::ContactCoupling(Assembly const& whole, MirroredAssembly const& 
       motion_(motion_of(whole)),
       ties_(continued.assembly, system_),
       particles_(continued, system_.ids()),
-      colours_(colour_contact_of(whole, particles_)),
+      lost_(whole, pair_settings(whole)),
+      colours_(colour_contact_of(whole, lost_, particles_)),
       held_(continued, whole, particles_.indices(), particles_.count()),
       actions_(whole.supports, whole.loads, whole.rigid_shapes),
       pair_impulses_(names_.size()) {

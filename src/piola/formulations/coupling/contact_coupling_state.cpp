@@ -9,6 +9,11 @@ void ContactCoupling::save(StateWriter& writer) const {
   std::vector<double> const system = system_.state();
   writer.put("contact_count", std::array{static_cast<double>(system.size())});
   writer.put("contact_state", system);
+  if (!lost_.pairs().empty()) {
+    std::vector<double> const depths = colours_.state();
+    writer.put("contact_colour_count", std::array{static_cast<double>(depths.size())});
+    writer.put("contact_colours", depths);
+  }
   std::vector<double> rigid{work_, last_dt_, friction_work_, chatter_loss_};
   for (std::size_t r = 0; r < shapes_.size(); ++r)
     for (Vec<3> const& a : {system_.rigid(r).centre, system_.rigid(r).velocity}) contact::put(rigid, a);
@@ -38,8 +43,13 @@ void ContactCoupling::load(StateReader& reader) {
   }
   std::array<double, 1> count{};
   reader.get("contact_count", count);
-  loaded_.resize(static_cast<std::size_t>(count[0]));
-  reader.get("contact_state", loaded_);
+  loaded_.surfaces.resize(static_cast<std::size_t>(count[0]));
+  reader.get("contact_state", loaded_.surfaces);
+  if (!lost_.pairs().empty()) {
+    reader.get("contact_colour_count", count);
+    loaded_.colours.resize(static_cast<std::size_t>(count[0]));
+    reader.get("contact_colours", loaded_.colours);
+  }
   std::vector<double> actions = actions_.state();
   reader.get("contact_actions", actions);
   actions_.restore(actions);

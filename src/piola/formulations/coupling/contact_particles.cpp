@@ -9,7 +9,7 @@
 namespace piola {
 
 ContactParticles::ContactParticles(MirroredAssembly const& continued, std::vector<std::int64_t> const& surface_ids)
-    : surface_count_(surface_ids.size()) {
+    : surface_count_(surface_ids.size()), read_(surface_ids.size()) {
   for (auto const id : surface_ids) {
     MirroredAssembly::Origin const origin = continued.origin(id);
     ids_.push_back(origin.image ? -1 : origin.id);
@@ -42,9 +42,22 @@ void ContactParticles::assign(std::vector<FormulationGroup> const& groups) {
     }
     groups_.push_back(std::move(particles));
   }
-  mass_.resize(ids_.size());
-  x_.resize(ids_.size());
-  v_.resize(ids_.size());
+  mass_.resize(read_);
+  x_.resize(read_);
+  v_.resize(read_);
+}
+
+void ContactParticles::read_late() {
+  read_ = ids_.size();
+  mass_.resize(read_);
+  x_.resize(read_);
+  v_.resize(read_);
+}
+
+/// Ids in the group of its particles that have a state.
+std::span<std::int64_t const> ContactParticles::read_of(GroupParticles const& group) const {
+  auto const last = std::lower_bound(group.at.begin(), group.at.end(), static_cast<Index>(read_));
+  return std::span(group.local).first(static_cast<std::size_t>(last - group.at.begin()));
 }
 
 std::vector<double> ContactParticles::surface_masses() const {
@@ -55,9 +68,9 @@ void ContactParticles::read_masses(Formulations const& formulations) {
   std::vector<double> m;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     GroupParticles const& group = groups_[g];
-    m.resize(group.local.size());
-    formulations[g]->read_masses(group.local, m);
-    for (std::size_t k = 0; k < group.at.size(); ++k) mass_[static_cast<std::size_t>(group.at[k])] = m[k];
+    m.resize(read_of(group).size());
+    formulations[g]->read_masses(read_of(group), m);
+    for (std::size_t k = 0; k < m.size(); ++k) mass_[static_cast<std::size_t>(group.at[k])] = m[k];
   }
 }
 
@@ -65,10 +78,10 @@ void ContactParticles::read_motion(Formulations const& formulations) {
   std::vector<std::array<double, 3>> x, v;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     GroupParticles const& group = groups_[g];
-    x.resize(group.local.size());
-    v.resize(group.local.size());
-    formulations[g]->read_motion(group.local, x, v);
-    for (std::size_t k = 0; k < group.at.size(); ++k) {
+    x.resize(read_of(group).size());
+    v.resize(x.size());
+    formulations[g]->read_motion(read_of(group), x, v);
+    for (std::size_t k = 0; k < x.size(); ++k) {
       x_[static_cast<std::size_t>(group.at[k])] = vector_of(x[k]);
       v_[static_cast<std::size_t>(group.at[k])] = vector_of(v[k]);
     }
@@ -124,11 +137,9 @@ std::vector<char> ContactParticles::find_lost_surfaces(Formulations const& formu
     CoupledParticles const& particles = *formulations[g];
     if (particles.surfaces_lost() == group.lost) continue;
     group.lost = particles.surfaces_lost();
-    lost.resize(surface_count_);
+    lost.resize(ids_.size());
     for (std::size_t k = 0; k < group.at.size(); ++k)
-      if (auto const i = static_cast<std::size_t>(group.at[k]);
-          i < lost.size() && particles.has_lost_surface(group.local[k]))
-        lost[i] = 1;
+      if (particles.has_lost_surface(group.local[k])) lost[static_cast<std::size_t>(group.at[k])] = 1;
   }
   return lost;
 }

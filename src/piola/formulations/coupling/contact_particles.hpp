@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <vector>
 
 namespace piola {
@@ -19,24 +20,29 @@ struct SparseVectors {
 };
 
 /// Particles that contact and ties act on: those of surfaces, with their images behind mirror planes, by index into
-/// SurfaceContactSystem::ids(); then those of bodies that are in colour contact only. Reads their state from the
-/// formulations of the run and applies impulses to it.
+/// SurfaceContactSystem::ids(); then others of bodies that are in colour contact. Late ones, of bodies whose surfaces
+/// may be lost, come last and have no state until read_late(). Reads their state from the formulations of the run and
+/// applies impulses to it.
 class ContactParticles {
  public:
   using Formulations = std::vector<CoupledParticles*>;  ///< by group
   /// surface_ids: ids in `continued`.
   ContactParticles(MirroredAssembly const& continued, std::vector<std::int64_t> const& surface_ids);
   /// Appends a particle of the run without a surface.
-  void append(std::int64_t id) { ids_.push_back(id); }
-  /// Finds the particles in the formulations. Call once, after the last append().
+  void append(std::int64_t id) { ids_.insert(ids_.begin() + static_cast<std::ptrdiff_t>(read_++), id); }
+  /// As append(), of a late particle. Call after the last append().
+  void append_late(std::int64_t id) { ids_.push_back(id); }
+  /// Reads the state of late particles from now on.
+  void read_late();
+  /// Finds the particles in the formulations. Call once, after the last append_late().
   void assign(std::vector<FormulationGroup> const& groups);
 
   std::size_t group_count() const { return groups_.size(); }
   std::size_t count() const { return ids_.size(); }
-  std::int64_t id(std::size_t index) const { return ids_[index]; }  ///< in the run; -1: an image
+  std::vector<std::int64_t> const& ids() const { return ids_; }  ///< in the run, by index; -1: an image
   /// Indices of the particles of the run, by id.
   std::map<std::int64_t, Index> indices() const;
-  std::vector<double> const& masses() const { return mass_; }  ///< [kg]
+  std::vector<double> const& masses() const { return mass_; }  ///< of particles with a state [kg]
   std::vector<double> surface_masses() const;                  ///< of the particles of surfaces [kg]
   std::vector<Vec<3>> const& x() const { return x_; }          ///< [m]
   std::vector<Vec<3>> const& v() const { return v_; }          ///< [m/s]
@@ -52,8 +58,7 @@ class ContactParticles {
   /// Changes the areas, see CoupledParticles::read_face_areas(). Places on images get areas and normals of their
   /// sources.
   void read_face_areas(Formulations const& formulations, std::vector<FacePlace>& places) const;
-  /// Particles whose formulation now keeps them apart from other bodies itself, as marks by index into
-  /// SurfaceContactSystem::ids(); empty if there are no new ones.
+  /// Particles that have lost their surface, as marks by index; empty if there are no new ones.
   std::vector<char> find_lost_surfaces(Formulations const& formulations);
   /// Adds the forces on images to their sources: the energy is a function of the particles of the run.
   void fold_images(SparseVectors& forces) const;
@@ -73,8 +78,10 @@ class ContactParticles {
     std::array<double, 3> sign, shift;
   };
   void place_images();
+  std::span<std::int64_t const> read_of(GroupParticles const& group) const;
 
   std::size_t surface_count_;
+  std::size_t read_;  ///< number of particles that have a state
   std::vector<std::int64_t> ids_;
   std::vector<Image> images_;           ///< by `at`
   std::vector<GroupParticles> groups_;  ///< by formulation

@@ -2,6 +2,7 @@
 #include "piola/mechanics/contact/body_contact.hpp"
 #include "piola/exec/host_loops.hpp"
 #include "piola/math/array_conversion.hpp"
+#include "piola/mechanics/contact/bounding_box.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <array>
@@ -12,22 +13,6 @@ namespace {
 
 /// Opposing normals have a negative product; until lists are rebuilt they rotate by no more than this margin allows.
 constexpr double largest_cosine = 0.8;
-
-/// Bounding box of points.
-struct Box {
-  Vec<3> low{{1e300, 1e300, 1e300}}, high{{-1e300, -1e300, -1e300}};
-  void add(Vec<3> const& y) {
-    for (int c = 0; c < 3; ++c) {
-      low[c] = std::min(low[c], y[c]);
-      high[c] = std::max(high[c], y[c]);
-    }
-  }
-  bool holds(Vec<3> const& y, double margin) const {
-    for (int c = 0; c < 3; ++c)
-      if (!(y[c] > low[c] - margin && y[c] < high[c] + margin)) return false;
-    return true;
-  }
-};
 
 /// Whether two points that are near each other can be in contact: those of one body not across its own thickness or
 /// corners.
@@ -52,7 +37,7 @@ void BodyContact::search(ContactModel const& model, std::vector<std::vector<Inde
 void BodyContact::search_body(ContactModel const& model, std::size_t b, std::vector<Index> const& of_body,
                               double skin) {
   SurfacePoints const& points = model.points;
-  Box box;
+  BoundingBox box;
   std::vector<std::array<double, 3>> places;
   places.reserve(of_body.size());
   for (Index const k : of_body) {

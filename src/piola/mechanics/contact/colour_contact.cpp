@@ -4,6 +4,7 @@
 #include "piola/exec/host_loops.hpp"
 #include "piola/kernels/wendland_c2.hpp"
 #include "piola/mechanics/contact/blended_planes.hpp"
+#include "piola/mechanics/contact/bounding_box.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
 #include <array>
@@ -65,8 +66,16 @@ ColourContact::ColourContact(int dimension, std::vector<Body> bodies, std::vecto
       Body const &a = bodies_[body], &b = bodies_[other];
       PIOLA_EXPECTS(a.volume.size() == a.at.size() && a.spacing > 0 && a.modulus > 0);
       PairRule const rule = pair_rule(pairs_[p].factor, a.modulus, a.spacing, b.modulus, b.spacing);
-      Pass pass{p,  body, other, {dimension, support_in_spacings * std::max(a.spacing, b.spacing)}, 0, 0, 0, 0,
-                {}, {},   {}};
+      Pass pass{.number = passes_.size(),
+                .pair = p,
+                .body = body,
+                .other = other,
+                .late = pairs_[p].late,
+                .active = false,
+                .kernel = {dimension, support_in_spacings * std::max(a.spacing, b.spacing)},
+                .target = {},
+                .begin = {},
+                .source = {}};
       auto const touching = pass.kernel.of_half_space(0.5 * a.spacing);
       pass.touching = touching.value;
       pass.slope = touching.slope;
@@ -75,16 +84,40 @@ ColourContact::ColourContact(int dimension, std::vector<Body> bodies, std::vecto
       skin_ = std::max(skin_, skin_in_spacings * std::max(a.spacing, b.spacing));
       passes_.push_back(std::move(pass));
     }
+  activate();
+}
+
+/// Finds the passes that have targets.
+void ColourContact::activate() {
+  in_active_pass_.assign(bodies_.size(), 0);
+  for (Pass& pass : passes_) {
+    std::vector<Index> const& own = bodies_[pass.body].at;
+    pass.active = !pass.late || std::any_of(own.begin(), own.end(), [&](Index k) { return late_.has(k); });
+    if (pass.active) in_active_pass_[pass.body] = in_active_pass_[pass.other] = 1;
+  }
+}
+
+bool ColourContact::any() const {
+  return std::any_of(passes_.begin(), passes_.end(), [](Pass const& pass) { return pass.active; });
+}
+
+void ColourContact::add_targets(std::vector<char> const& marked) {
+  if (marked.empty() || passes_.empty()) return;
+  late_.add(marked);
+  activate();
+  listed_at_.clear();
 }
 
 bool ColourContact::lists_hold(std::vector<Vec<3>> const& x, std::vector<double> const& masses) const {
   if (listed_at_.size() != x.size()) return false;
   double const most = 0.25 * skin_ * skin_;
-  for (Pass const& pass : passes_)
-    for (Index const k : bodies_[pass.body].at) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (in_active_pass_[b] == 0) continue;
+    for (Index const k : bodies_[b].at) {
       Vec<3> const moved = x[number(k)] - listed_at_[number(k)];
       if (!(dot(moved, moved) < most) || (masses[number(k)] > 0) != (listed_alive_[number(k)] != 0)) return false;
     }
+  }
   return true;
 }
 
@@ -95,41 +128,52 @@ void ColourContact::make_lists(std::vector<Vec<3>> const& x, std::vector<double>
   for (std::size_t k = 0; k < masses.size(); ++k) listed_alive_[k] = masses[k] > 0 ? 1 : 0;
 }
 
-/// Only particles near the box around the other body are listed.
+/// Numbers in the body of its particles that have mass; late: of those among them that are late targets.
+std::vector<Index> ColourContact::present(std::size_t body, bool late, std::vector<Vec<3>> const& x,
+                                          std::vector<double> const& masses) const {
+  std::vector<Index> const& at = bodies_[body].at;
+  std::vector<Index> all;
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    Vec<3> const& y = x[number(at[k])];
+    if (!(masses[number(at[k])] > 0) || !std::isfinite(y[0] + y[1] + y[2])) continue;
+    if (!late || late_.has(at[k])) all.push_back(static_cast<Index>(k));
+  }
+  return all;
+}
+
+/// Only particles near the box around those of the other body are listed.
 void ColourContact::list(Pass& pass, std::vector<Vec<3>> const& x, std::vector<double> const& masses) const {
   double const reach = pass.kernel.support + skin_;
-  std::vector<Index> const &own = bodies_[pass.body].at, &other = bodies_[pass.other].at;
-  Vec<3> low{{1e300, 1e300, 1e300}}, high{{-1e300, -1e300, -1e300}};
-  std::vector<std::array<double, 3>> places;
-  std::vector<Index> source;  // places in the other body
-  for (std::size_t k = 0; k < other.size(); ++k) {
-    Vec<3> const& y = x[number(other[k])];
-    if (!(masses[number(other[k])] > 0) || !std::isfinite(y[0] + y[1] + y[2])) continue;
-    for (int c = 0; c < 3; ++c) {
-      low[c] = std::min(low[c], y[c]);
-      high[c] = std::max(high[c], y[c]);
-    }
-    places.push_back({y[0], y[1], y[2]});
-    source.push_back(static_cast<Index>(k));
-  }
   pass.target.clear();
   pass.source.clear();
   pass.begin.assign(1, 0);
+  if (!pass.active) return;
+  auto const place = [&](std::size_t body, Index k) -> Vec<3> const& { return x[number(bodies_[body].at[number(k)])]; };
+  std::vector<Index> const targets = present(pass.body, pass.late, x, masses);
+  BoundingBox around_targets, around_sources;
+  for (Index const k : targets) around_targets.add(place(pass.body, k));
+  std::vector<std::array<double, 3>> places;
+  std::vector<Index> source;
+  for (Index const k : present(pass.other, false, x, masses)) {
+    Vec<3> const& y = place(pass.other, k);
+    if (!around_targets.holds(y, reach)) continue;
+    around_sources.add(y);
+    places.push_back({y[0], y[1], y[2]});
+    source.push_back(k);
+  }
   if (places.empty()) return;
   CellGrid const grid(places, reach);
-  for (std::size_t k = 0; k < own.size(); ++k) {
-    Vec<3> const& y = x[number(own[k])];
-    bool inside = masses[number(own[k])] > 0;
-    for (int c = 0; c < 3; ++c) inside = inside && y[c] > low[c] - reach && y[c] < high[c] + reach;
-    if (!inside) continue;
+  for (Index const k : targets) {
+    Vec<3> const& y = place(pass.body, k);
+    if (!around_sources.holds(y, reach)) continue;
     std::size_t const first = pass.source.size();
     grid.visit({y[0], y[1], y[2]}, [&](Index j) {
-      Vec<3> const r = y - x[number(other[number(source[number(j)])])];
+      Vec<3> const r = y - place(pass.other, source[number(j)]);
       if (dot(r, r) < reach * reach) pass.source.push_back(source[number(j)]);
     });
     if (pass.source.size() == first) continue;
     std::sort(pass.source.begin() + static_cast<std::ptrdiff_t>(first), pass.source.end());
-    pass.target.push_back(static_cast<Index>(k));
+    pass.target.push_back(k);
     pass.begin.push_back(pass.source.size());
   }
 }
@@ -162,11 +206,13 @@ void ColourContact::add(Index k, Vec<3> const& f) {
 /// E = A psi(g), g = (C_touching - C) / |C'|.
 void ColourContact::push(Pass const& pass, std::size_t target, Seen const& seen, std::vector<Vec<3>> const& x,
                          exec::ReproducibleSum& energy) {
-  if (!(seen.colour > soon * pass.touching)) return;
   Body const &own = bodies_[pass.body], &other = bodies_[pass.other];
   Index const self = own.at[number(pass.target[target])];
+  double const distance = (pass.touching - seen.colour) / pass.slope;
+  double const gap = pass.late ? late_.pushing_gap(pass.number, self, distance) : distance;
+  if (!(seen.colour > soon * pass.touching)) return;
   double const area = own.volume[number(pass.target[target])] / own.spacing;
-  double const gap = (pass.touching - seen.colour) / pass.slope, in_lengths = std::min(gap, 0.0) / pass.length;
+  double const in_lengths = std::min(gap, 0.0) / pass.length;
   // Second derivative of the energy by C, times the sizes of the slopes.
   double const bend = area * pass.stiffness * (1 + 3 * in_lengths * in_lengths) / (pass.slope * pass.slope) * seen.size;
   stiffness_[number(self)] += bend * size_of(seen.slope);
@@ -176,7 +222,9 @@ void ColourContact::push(Pass const& pass, std::size_t target, Seen const& seen,
   for (std::size_t s = pass.begin[target]; s < pass.begin[target + 1]; ++s) {
     std::size_t const b = number(pass.source[s]);
     Vec<3> const r = y - x[number(other.at[b])];
-    Vec<3> const slope = (other.volume[b] * pass.kernel.slope(size_of(r))) * r;
+    double const by_distance = pass.kernel.slope(size_of(r));
+    if (!(by_distance < 0)) continue;  // in the margin of the list
+    Vec<3> const slope = (other.volume[b] * by_distance) * r;
     stiffness_[number(other.at[b])] += bend * size_of(slope);
     if (gap < 0) add(other.at[b], by_colour * slope);
   }
@@ -184,7 +232,7 @@ void ColourContact::push(Pass const& pass, std::size_t target, Seen const& seen,
   Vec<3> const f = (-by_colour) * seen.slope;
   add(self, f);
   energy += area * psi.energy;
-  totals_.deepest = std::max(totals_.deepest, -gap / (2 * pass.length));
+  totals_.deepest = std::max(totals_.deepest, -distance / (2 * pass.length));
   totals_.touched += 1;
   bool const first = pass.body == pairs_[pass.pair].a;
   double const sign = first ? 1 : -1;
@@ -216,6 +264,7 @@ void ColourContact::evaluate(std::vector<Vec<3>> const& x, std::vector<double> c
                             [&](Index k) { seen[number(k)] = look(pass, number(k), x); });
     for (std::size_t k = 0; k < seen.size(); ++k) push(pass, k, seen[k], x, energy);
   }
+  late_.settle();
   totals_.energy = energy.value();
   std::sort(loaded_indices_.begin(), loaded_indices_.end());
   for (std::size_t k = 0; k < masses.size(); ++k)

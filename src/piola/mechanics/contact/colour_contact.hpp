@@ -3,12 +3,13 @@
 #include "piola/math/lanes.hpp"
 #include "piola/math/tensor.hpp"
 #include "piola/mechanics/contact/force_moment.hpp"
+#include "piola/mechanics/contact/late_targets.hpp"
 #include <cstddef>
 #include <vector>
 
-/// Contact of bodies without a surface (Eulerian particles, or particles from a file), by the colour function of the
-/// other body: C(x) = sum_b V_b W(|x - x_b|), which is 1 deep inside and 0 outside. Theory: docs/theory/contact.md,
-/// section 8.
+/// Contact of bodies without a surface (Eulerian particles, or particles from a file), and of particles that have lost
+/// theirs, by the colour function of the other body: C(x) = sum_b V_b W(|x - x_b|), which is 1 deep inside and 0
+/// outside. Theory: docs/theory/contact.md, section 8.
 namespace piola::contact {
 
 /// Wendland's C2 kernel with support radius R [m], integral 1 over space of 1 to 3 dimensions.
@@ -36,10 +37,18 @@ class ColourContact {
   struct Pair {
     std::size_t a = 0, b = 0;  ///< indices of the bodies
     double factor = 0.5;       ///< C_s
+    bool late = false;         ///< targets are particles that have lost their surface, else all particles
   };
   ColourContact() = default;
   ColourContact(int dimension, std::vector<Body> bodies, std::vector<Pair> pairs);
-  bool any() const { return !pairs_.empty(); }
+  /// Whether there are targets.
+  bool any() const;
+  /// Makes particles targets that have lost their surface, marked by index. Each pushes from its depth in the next
+  /// evaluation on.
+  void add_targets(std::vector<char> const& marked);
+  /// Depths from which such targets push, for a checkpoint. To be loaded after add_targets().
+  std::vector<double> state() const { return late_.state(); }
+  void load(std::vector<double> const& state) { late_.load(state); }
 
   /// Computes the forces [N] at x [m], functions of positions alone. Particles without mass are skipped [kg]. The
   /// forces are sums of central ones between pairs of particles.
@@ -64,7 +73,8 @@ class ColourContact {
  private:
   /// The particles of one body near another one with their neighbours, which are numbered as in `other`.
   struct Pass {
-    std::size_t pair, body, other;
+    std::size_t number, pair, body, other;
+    bool late, active;  ///< see Pair; whether the body has targets
     ColourKernel kernel;
     double touching = 0, slope = 0;  ///< C half a spacing in front of a face, and -dC/dd there
     double stiffness = 0;            ///< k [Pa/m]
@@ -78,6 +88,9 @@ class ColourContact {
     Vec<3> slope;     ///< of the colour by the position of the target [1/m]
     double size = 0;  ///< sum of the norms of the derivatives by positions of target and sources [1/m]
   };
+  void activate();
+  std::vector<Index> present(std::size_t body, bool late, std::vector<Vec<3>> const& x,
+                             std::vector<double> const& masses) const;
   bool lists_hold(std::vector<Vec<3>> const& x, std::vector<double> const& masses) const;
   void make_lists(std::vector<Vec<3>> const& x, std::vector<double> const& masses);
   void list(Pass& pass, std::vector<Vec<3>> const& x, std::vector<double> const& masses) const;
@@ -89,6 +102,8 @@ class ColourContact {
   std::vector<Body> bodies_;
   std::vector<Pair> pairs_;
   std::vector<Pass> passes_;
+  std::vector<char> in_active_pass_;  ///< by body
+  LateTargets late_;
   double skin_ = 0;  ///< [m]
   std::vector<Vec<3>> listed_at_;
   std::vector<char> listed_alive_;

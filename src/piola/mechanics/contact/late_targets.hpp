@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "piola/math/lanes.hpp"
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace piola::contact {
+
+/// Targets that join a contact during a run: particles that have lost their surface. Each pushes from the depth that it
+/// has when it joins, so that the energy does not jump. This depth falls while the gap opens, and never rises.
+class LateTargets {
+ public:
+  /// Adds the marked particles, by index.
+  void add(std::vector<char> const& marked);
+  bool any() const { return any_; }
+  bool has(Index k) const { return static_cast<std::size_t>(k) < known_.size() && known_[static_cast<std::size_t>(k)]; }
+  /// Returns the gap [m] by which a target pushes whose gap is `gap` [m] in contact number `contact`. Call it in each
+  /// evaluation for all targets whose gap may be negative.
+  double pushing_gap(std::size_t contact, Index k, double gap);
+  /// Ends an evaluation.
+  void settle();
+  /// The targets that push from a depth: contact, index and depth [m] of each, for a checkpoint.
+  std::vector<double> state() const;
+  /// Takes the state of a checkpoint, after all targets of then were added.
+  void load(std::vector<double> const& state);
+
+ private:
+  enum Known : char { no, since_last_evaluation, yes };
+
+  bool any_ = false;
+  std::vector<char> known_;  ///< by index
+  std::map<std::pair<std::size_t, Index>, double> depth_;
+};
+
+}  // namespace piola::contact
