@@ -213,6 +213,12 @@ TEST(OverlapGuard, WarnsAboveOneSpacing) {
   EXPECT_DOUBLE_EQ(with(0.99).guards["overlap"]["largest"].get<double>(), 0.99);
 }
 
+TEST(OverlapGuard, WarnsOfParticlesThatNothingKeepsApart) {
+  Script s;
+  s.uncovered = {{"body 'plate'", "rigid shapes", 45}};
+  expect_words(run(s).all(), {"45 particles of body 'plate' beside failed material", "them apart from rigid shapes"});
+}
+
 TEST(StrainDriftGuard, WarnsAndStops) {
   auto const with = [](double most) {
     Script s;

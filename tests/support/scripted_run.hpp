@@ -25,6 +25,7 @@ struct Script {
   std::function<std::vector<std::pair<std::string, double>>(double)> more = [](double) {
     return std::vector<std::pair<std::string, double>>{};
   };
+  std::vector<UncoveredParticles> uncovered = {};
 };
 
 class Scripted : public FakeFormulation {
@@ -49,6 +50,7 @@ class Scripted : public FakeFormulation {
       d.jacobian_max = std::max(d.jacobian_max, script_.jacobian(i, time_));
     }
     d.more = script_.more(time_);
+    d.uncovered = script_.uncovered;
     return d;
   }
   std::vector<FieldInfo> fields() const override {

@@ -175,11 +175,16 @@ class OverlapGuard : public LargestGuard {
         all, looked_at_);
   }
   std::string words_of_uncovered() const {
+    if (!std::isfinite(limit_)) return "";
     std::string all;
     for (UncoveredParticles const& p : uncovered_)
-      all += fmt::format("{}{} particle{} of {} came off, and nothing keeps {} apart from {}", all.empty() ? "" : ", ",
-                         p.particles, p.particles == 1 ? "" : "s", p.of, p.particles == 1 ? "it" : "them", p.from);
-    return all;
+      all += fmt::format("{}{} particle{} of {} beside failed material: nothing keeps {} apart from {}",
+                         all.empty() ? "" : ", ", p.particles, p.particles == 1 ? "" : "s", p.of,
+                         p.particles == 1 ? "it" : "them", p.from);
+    if (all.empty()) return "";
+    return fmt::format(
+        "{} at t = {:.6g} s (allowed: none) - take the formulation adaptle if what has failed meets something", all,
+        looked_at_);
   }
 
   double limit_, looked_at_ = 0;

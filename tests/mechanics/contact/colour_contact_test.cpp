@@ -15,7 +15,7 @@ class Colour : public ::testing::TestWithParam<int> {
     std::vector<double> masses;
     ColourContact contact;
   };
-  static Blocks blocks(double depth, double shake) {
+  static Blocks blocks(double depth, double shake, bool late = false) {
     int const D = GetParam();
     Blocks r;
     std::vector<ColourContact::Body> bodies(2);
@@ -37,7 +37,7 @@ class Colour : public ::testing::TestWithParam<int> {
             r.masses.push_back(1000 * std::pow(dp, D));
           }
     }
-    r.contact = ColourContact(D, std::move(bodies), {{0, 1, 0.5}});
+    r.contact = ColourContact(D, std::move(bodies), {{0, 1, 0.5, late}});
     return r;
   }
 };
@@ -131,6 +131,36 @@ TEST_P(Colour, WhatHasNoMassIsNotThere) {
   b.contact.evaluate(b.x, b.masses);
   EXPECT_EQ(b.contact.totals().energy, 0);
   EXPECT_TRUE(b.contact.loaded_indices().empty());
+}
+
+// Particles that lose their surface push from the depth that they have then on, also from a checkpoint, and from their
+// face on once they have been out; other particles of the pair do not.
+TEST_P(Colour, LateTargetsPushFromTheDepthAtWhichTheyJoin) {
+  Blocks all = blocks(0.3, 0), late = blocks(0.3, 0, true), loaded = blocks(0.3, 0, true);
+  std::vector<char> marked(late.x.size());
+  for (std::size_t k = 0; k < marked.size() / 2; ++k) marked[k] = 1;  // of the first block
+  auto const energy_at = [](Blocks& b, double deeper) {
+    auto x = b.x;
+    for (std::size_t k = x.size() / 2; k < x.size(); ++k) x[k][0] -= deeper;
+    b.contact.evaluate(x, b.masses);
+    return b.contact.totals().energy;
+  };
+  EXPECT_FALSE(late.contact.any());
+  EXPECT_EQ(energy_at(late, 0), 0);
+  late.contact.add_targets(marked);
+  EXPECT_TRUE(late.contact.any());
+  EXPECT_EQ(energy_at(late, 0), 0);
+  loaded.contact.add_targets(marked);
+  loaded.contact.load(late.contact.state());
+  double const deeper = energy_at(late, 0.1), whole = energy_at(all, 0.1);
+  EXPECT_GT(deeper, 0);
+  EXPECT_EQ(energy_at(loaded, 0.1), deeper);
+  EXPECT_LT(deeper, 0.3 * whole);
+  EXPECT_EQ(energy_at(late, -1), 0);
+  EXPECT_TRUE(late.contact.state().empty());
+  double const after = energy_at(late, 0.1);
+  EXPECT_GT(after, 2 * deeper);
+  EXPECT_LT(after, whole);
 }
 
 INSTANTIATE_TEST_SUITE_P(Dimensions, Colour, ::testing::Values(1, 2, 3));
