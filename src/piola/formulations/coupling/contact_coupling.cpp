@@ -84,10 +84,8 @@ void ContactCoupling::find_lost_surfaces(Formulations const& formulations) {
   if (lost.empty()) return;
   system_.drop({lost.begin(), lost.begin() + static_cast<std::ptrdiff_t>(system_.ids().size())});
   lost_.count(lost, particles_.ids());
-  bool const first = !colours_.any();
   colours_.add_targets(lost);
-  if (!first || !colours_.any()) return;
-  particles_.read_late();
+  if (!colours_.any() || !particles_.read_late()) return;
   particles_.read_masses(formulations);
   particles_.read_motion(formulations);
 }

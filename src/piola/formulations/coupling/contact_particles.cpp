@@ -47,11 +47,13 @@ void ContactParticles::assign(std::vector<FormulationGroup> const& groups) {
   v_.resize(read_);
 }
 
-void ContactParticles::read_late() {
+bool ContactParticles::read_late() {
+  if (read_ == ids_.size()) return false;
   read_ = ids_.size();
   mass_.resize(read_);
   x_.resize(read_);
   v_.resize(read_);
+  return true;
 }
 
 /// Ids in the group of its particles that have a state.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/base/contracts.hpp"
 #include "piola/formulations/common/mirrored_assembly.hpp"
 #include "piola/formulations/coupled_particles.hpp"
 #include "piola/formulations/coupling/coupled_formulations.hpp"
@@ -28,12 +29,16 @@ class ContactParticles {
   using Formulations = std::vector<CoupledParticles*>;  ///< by group
   /// surface_ids: ids in `continued`.
   ContactParticles(MirroredAssembly const& continued, std::vector<std::int64_t> const& surface_ids);
-  /// Appends a particle of the run without a surface.
-  void append(std::int64_t id) { ids_.insert(ids_.begin() + static_cast<std::ptrdiff_t>(read_++), id); }
-  /// As append(), of a late particle. Call after the last append().
+  /// Appends a particle of the run without a surface. Call before append_late().
+  void append(std::int64_t id) {
+    PIOLA_EXPECTS(read_ == ids_.size());
+    ids_.push_back(id);
+    ++read_;
+  }
+  /// As append(), of a late particle.
   void append_late(std::int64_t id) { ids_.push_back(id); }
-  /// Reads the state of late particles from now on.
-  void read_late();
+  /// Has the state of late particles read from now on. Returns whether any was not read before.
+  bool read_late();
   /// Finds the particles in the formulations. Call once, after the last append_late().
   void assign(std::vector<FormulationGroup> const& groups);
 

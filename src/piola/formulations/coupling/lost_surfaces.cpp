@@ -49,9 +49,10 @@ void LostSurfaces::count(std::vector<char> const& lost, std::vector<std::int64_t
   PIOLA_EXPECTS(lost.size() <= ids.size());
   for (BodyCount& body : bodies_) {
     if (!body.loses) continue;
-    body.particles = 0;
+    std::int64_t particles = 0;
     for (std::size_t k = 0; k < lost.size(); ++k)
-      if (lost[k] != 0 && ids[k] >= body.first && ids[k] < body.last) ++body.particles;
+      if (lost[k] != 0 && ids[k] >= body.first && ids[k] < body.last) ++particles;
+    body.particles = std::max(body.particles, particles);  // marks may be those of another body alone
   }
 }
 

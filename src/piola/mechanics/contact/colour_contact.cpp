@@ -134,6 +134,7 @@ std::vector<Index> ColourContact::present(std::size_t body, bool late, std::vect
   std::vector<Index> const& at = bodies_[body].at;
   std::vector<Index> all;
   for (std::size_t k = 0; k < at.size(); ++k) {
+    PIOLA_EXPECTS(number(at[k]) < x.size());
     Vec<3> const& y = x[number(at[k])];
     if (!(masses[number(at[k])] > 0) || !std::isfinite(y[0] + y[1] + y[2])) continue;
     if (!late || late_.has(at[k])) all.push_back(static_cast<Index>(k));
