@@ -2,6 +2,7 @@
 #include "piola/formulations/formulation.hpp"
 #include "piola/domain/communicator.hpp"
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <stdexcept>
 
@@ -15,6 +16,19 @@ FieldInfo const& info_of(std::span<FieldInfo const> fields, std::string_view nam
 
 std::optional<std::vector<std::int64_t>> ReplicatedObservables::local_particles() const {
   return comm::rank() == 0 ? std::nullopt : std::optional<std::vector<std::int64_t>>(std::in_place);
+}
+
+void StateWriter::put_sized(std::string_view count, std::string_view name, std::span<double const> values) {
+  put(count, std::array{static_cast<double>(values.size())});
+  put(name, values);
+}
+
+std::vector<double> StateReader::get_sized(std::string_view count, std::string_view name) {
+  std::array<double, 1> size{};
+  get(count, size);
+  std::vector<double> values(static_cast<std::size_t>(size[0]));
+  get(name, values);
+  return values;
 }
 
 void StateWriter::put_rows(std::string_view name, DistributedRows const& rows, std::span<double const> values) {

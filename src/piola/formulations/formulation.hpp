@@ -98,6 +98,8 @@ class StateWriter {
  public:
   virtual ~StateWriter() = default;
   virtual void put(std::string_view name, std::span<double const> values) = 0;
+  /// Saves values whose number the reader does not know: `count` names that number.
+  void put_sized(std::string_view count, std::string_view name, std::span<double const> values);
   /// Saves a distributed table. `values`: the rows of this rank. Collective. The default gathers all rows on rank 0 and
   /// calls put() there.
   virtual void put_rows(std::string_view name, DistributedRows const& rows, std::span<double const> values);
@@ -132,6 +134,8 @@ class StateReader {
   virtual ~StateReader() = default;
   /// Throws FileError if the name or the length does not fit.
   virtual void get(std::string_view name, std::span<double> values) = 0;
+  /// Inverse of StateWriter::put_sized(). Throws as get().
+  std::vector<double> get_sized(std::string_view count, std::string_view name);
   /// As get(), for data that rank 0 scatters afterwards: rank 0 passes a buffer of the full length, other ranks pass an
   /// empty span.
   virtual void get_on_root(std::string_view name, std::span<double> values) { get(name, values); }

@@ -137,14 +137,15 @@ bool contains(LostSurfaces::Pairs const& pairs, std::size_t body) {
   return std::any_of(pairs.begin(), pairs.end(), [&](auto const& pair) { return pair.a == body || pair.b == body; });
 }
 
-/// Appends the particles without surface points that colour contact of `pairs` and the lost surfaces need.
-void append_particles(Assembly const& whole, LostSurfaces::Pairs const& pairs, LostSurfaces const& lost,
-                      ContactParticles& to) {
-  std::map<std::int64_t, Index> known = to.indices();
+/// Appends the particles without surface points that colour contact of `pairs` and the lost surfaces need. Returns the
+/// indices of all particles by id.
+std::map<std::int64_t, Index> append_particles(Assembly const& whole, LostSurfaces::Pairs const& pairs,
+                                               LostSurfaces const& lost, ContactParticles& to) {
+  std::map<std::int64_t, Index> at = to.indices();
   auto const append = [&](std::size_t b, bool late) {
     Body const& body = whole.particles.bodies[b];
     for (auto id = body.first; id < body.last; ++id) {
-      if (!known.emplace(id, 0).second) continue;
+      if (!at.emplace(id, static_cast<Index>(to.count())).second) continue;
       if (late)
         to.append_late(id);
       else
@@ -156,6 +157,7 @@ void append_particles(Assembly const& whole, LostSurfaces::Pairs const& pairs, L
     if (contains(pairs, b)) append(b, false);
   for (std::size_t b = 0; b < bodies; ++b)
     if (lost.may_lose(b) || contains(lost.pairs(), b)) append(b, true);
+  return at;
 }
 
 /// Colour contact of the run. Appends its particles to `contact_particles`.
@@ -163,10 +165,9 @@ contact::ColourContact colour_contact_of(Assembly const& whole, LostSurfaces con
                                          ContactParticles& contact_particles) {
   PIOLA_EXPECTS(whole.materials.size() == whole.particles.bodies.size());
   LostSurfaces::Pairs pairs = coloured_pairs(whole);
-  append_particles(whole, pairs, lost, contact_particles);
+  std::map<std::int64_t, Index> const at = append_particles(whole, pairs, lost, contact_particles);
   pairs.insert(pairs.end(), lost.pairs().begin(), lost.pairs().end());
   if (pairs.empty()) return {};
-  std::map<std::int64_t, Index> const at = contact_particles.indices();
   ParticleSet const& particles = whole.particles;
   std::vector<contact::ColourContact::Body> bodies(particles.bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) {

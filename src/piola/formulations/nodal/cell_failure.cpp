@@ -3,7 +3,6 @@
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/nodal/field_set_up.hpp"
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace piola::nodal {
@@ -210,10 +209,7 @@ void CellFailure::crush(std::vector<Index> const& slots) {
 }
 
 void CellFailure::save(StateWriter& writer, std::string const& name) const {
-  if (!body_.reference().refits) return;
-  std::vector<double> const pairs = fragments_.state();
-  writer.put(name + "_size", std::array{static_cast<double>(pairs.size())});
-  writer.put(name, pairs);
+  if (body_.reference().refits) writer.put_sized(name + "_size", name, fragments_.state());
 }
 
 void CellFailure::load(StateReader& reader, std::string const& name) {
@@ -224,11 +220,7 @@ void CellFailure::load(StateReader& reader, std::string const& name) {
   changes = over_ranks(std::move(changes));
   if (!changes.empty()) set(changes);
   for (Index i = body_.own().first; i < body_.own().last; ++i) value(i, FailureLayout::refitted) = 0;
-  std::array<double, 1> size{};
-  reader.get(name + "_size", size);
-  std::vector<double> pairs(static_cast<std::size_t>(size[0]));
-  reader.get(name, pairs);
-  fragments_.load(pairs);
+  fragments_.load(reader.get_sized(name + "_size", name));
   find_contact();
 }
 

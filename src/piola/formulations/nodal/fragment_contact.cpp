@@ -81,17 +81,8 @@ void FragmentContact::forget_parted(double touching) {
   });
 }
 
-std::vector<double> FragmentContact::state() const {
-  std::vector<double> all;
-  for (auto const& [pair, rest] : nearer_)
-    all.insert(all.end(), {static_cast<double>(pair.first), static_cast<double>(pair.second), rest});
-  return all;
-}
-
 void FragmentContact::load(std::vector<double> const& state) {
-  nearer_.clear();
-  for (std::size_t k = 0; k + 2 < state.size(); k += 3)
-    nearer_[{static_cast<Index>(state[k]), static_cast<Index>(state[k + 1])}] = state[k + 2];
+  nearer_ = contact::pair_values_of(state);
   for (Index const slot : slots_) known_[static_cast<std::size_t>(slot)] = 1;
 }
 

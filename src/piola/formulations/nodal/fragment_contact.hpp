@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/nodal/body.hpp"
-#include <map>
-#include <utility>
+#include "piola/mechanics/contact/state_vector.hpp"
 #include <vector>
 
 namespace piola::nodal {
@@ -24,7 +23,7 @@ class FragmentContact {
   /// Adds the impulse of the forces during dt [s] to the velocities.
   void kick(double dt) const;
   /// The pairs that push from a smaller distance on: two slots and the distance [m] of each, for a checkpoint.
-  std::vector<double> state() const;
+  std::vector<double> state() const { return contact::numbers_of(nearer_); }
   /// Takes the pairs of a checkpoint, after all particles were added.
   void load(std::vector<double> const& state);
   double energy() const { return energy_; }          ///< [J], on all ranks alike
@@ -35,10 +34,10 @@ class FragmentContact {
   void forget_parted(double touching);
 
   NodalBody& body_;
-  std::vector<char> known_;                           ///< per slot: 1 added, 2 added since the last evaluation
-  std::vector<Index> slots_;                          ///< ascending
-  std::vector<Vec<3>> force_;                         ///< per entry of slots_ [N]
-  std::map<std::pair<Index, Index>, double> nearer_;  ///< see state()
+  std::vector<char> known_;     ///< per slot: 1 added, 2 added since the last evaluation
+  std::vector<Index> slots_;    ///< ascending
+  std::vector<Vec<3>> force_;   ///< per entry of slots_ [N]
+  contact::PairValues nearer_;  ///< see state()
   double energy_ = 0, frequency2_ = 0;
 };
 

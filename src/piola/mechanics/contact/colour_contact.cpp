@@ -66,7 +66,7 @@ ColourContact::ColourContact(int dimension, std::vector<Body> bodies, std::vecto
       Body const &a = bodies_[body], &b = bodies_[other];
       PIOLA_EXPECTS(a.volume.size() == a.at.size() && a.spacing > 0 && a.modulus > 0);
       PairRule const rule = pair_rule(pairs_[p].factor, a.modulus, a.spacing, b.modulus, b.spacing);
-      Pass pass{.number = passes_.size(),
+      Pass pass{.number = static_cast<Index>(passes_.size()),
                 .pair = p,
                 .body = body,
                 .other = other,

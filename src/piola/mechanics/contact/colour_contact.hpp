@@ -73,7 +73,8 @@ class ColourContact {
  private:
   /// The particles of one body near another one with their neighbours, which are numbered as in `other`.
   struct Pass {
-    std::size_t number, pair, body, other;
+    Index number;  ///< of this pass
+    std::size_t pair, body, other;
     bool late, active;  ///< see Pair; whether the body has targets
     ColourKernel kernel;
     double touching = 0, slope = 0;  ///< C half a spacing in front of a face, and -dC/dd there

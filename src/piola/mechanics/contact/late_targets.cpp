@@ -7,14 +7,11 @@ namespace piola::contact {
 
 void LateTargets::add(std::vector<char> const& marked) {
   if (known_.size() < marked.size()) known_.resize(marked.size(), no);
-  for (std::size_t k = 0; k < marked.size(); ++k) {
-    if (marked[k] == 0 || known_[k] != no) continue;
-    known_[k] = since_last_evaluation;
-    any_ = true;
-  }
+  for (std::size_t k = 0; k < marked.size(); ++k)
+    if (marked[k] != 0 && known_[k] == no) known_[k] = since_last_evaluation;
 }
 
-double LateTargets::pushing_gap(std::size_t contact, Index k, double gap) {
+double LateTargets::pushing_gap(Index contact, Index k, double gap) {
   PIOLA_EXPECTS(has(k));
   double const depth = std::max(-gap, 0.0);
   if (known_[static_cast<std::size_t>(k)] == since_last_evaluation) {
@@ -34,18 +31,8 @@ void LateTargets::settle() {
     if (known == since_last_evaluation) known = yes;
 }
 
-std::vector<double> LateTargets::state() const {
-  std::vector<double> all;
-  for (auto const& [target, depth] : depth_)
-    all.insert(all.end(), {static_cast<double>(target.first), static_cast<double>(target.second), depth});
-  return all;
-}
-
 void LateTargets::load(std::vector<double> const& state) {
-  PIOLA_EXPECTS(state.size() % 3 == 0);
-  depth_.clear();
-  for (std::size_t k = 0; k < state.size(); k += 3)
-    depth_[{static_cast<std::size_t>(state[k]), static_cast<Index>(state[k + 1])}] = state[k + 2];
+  depth_ = pair_values_of(state);
   settle();
 }
 

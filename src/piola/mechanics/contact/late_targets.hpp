@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/math/lanes.hpp"
+#include "piola/mechanics/contact/state_vector.hpp"
 #include <cstddef>
-#include <map>
-#include <utility>
 #include <vector>
 
 namespace piola::contact {
@@ -14,24 +12,22 @@ class LateTargets {
  public:
   /// Adds the marked particles, by index.
   void add(std::vector<char> const& marked);
-  bool any() const { return any_; }
   bool has(Index k) const { return static_cast<std::size_t>(k) < known_.size() && known_[static_cast<std::size_t>(k)]; }
   /// Returns the gap [m] by which a target pushes whose gap is `gap` [m] in contact number `contact`. Call it in each
   /// evaluation for all targets whose gap may be negative.
-  double pushing_gap(std::size_t contact, Index k, double gap);
+  double pushing_gap(Index contact, Index k, double gap);
   /// Ends an evaluation.
   void settle();
   /// The targets that push from a depth: contact, index and depth [m] of each, for a checkpoint.
-  std::vector<double> state() const;
+  std::vector<double> state() const { return numbers_of(depth_); }
   /// Takes the state of a checkpoint, after all targets of then were added.
   void load(std::vector<double> const& state);
 
  private:
   enum Known : char { no, since_last_evaluation, yes };
 
-  bool any_ = false;
   std::vector<char> known_;  ///< by index
-  std::map<std::pair<std::size_t, Index>, double> depth_;
+  PairValues depth_;         ///< by contact and index [m]
 };
 
 }  // namespace piola::contact

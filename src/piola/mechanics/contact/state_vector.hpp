@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/base/contracts.hpp"
+#include "piola/math/lanes.hpp"
 #include "piola/math/tensor.hpp"
 #include <cstddef>
+#include <map>
+#include <utility>
 #include <vector>
 
 /// State as a list of numbers, for checkpoints; read in the order of writing.
@@ -21,6 +24,25 @@ void put_some(std::vector<double>& all, std::size_t n, Contains const& contains,
     all.push_back(static_cast<double>(k));
     put_values(k);
   }
+}
+
+/// A number for some pairs of indices.
+using PairValues = std::map<std::pair<Index, Index>, double>;
+
+/// Three numbers for each pair.
+inline std::vector<double> numbers_of(PairValues const& pairs) {
+  std::vector<double> all;
+  for (auto const& [pair, value] : pairs)
+    all.insert(all.end(), {static_cast<double>(pair.first), static_cast<double>(pair.second), value});
+  return all;
+}
+/// Inverse of numbers_of().
+inline PairValues pair_values_of(std::vector<double> const& all) {
+  PIOLA_EXPECTS(all.size() % 3 == 0);
+  PairValues pairs;
+  for (std::size_t k = 0; k < all.size(); k += 3)
+    pairs[{static_cast<Index>(all[k]), static_cast<Index>(all[k + 1])}] = all[k + 2];
+  return pairs;
 }
 
 class StateVector {
