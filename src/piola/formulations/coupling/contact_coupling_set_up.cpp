@@ -17,6 +17,12 @@ std::vector<contact::RigidSurface> rigid_surfaces(Assembly const& whole) {
   return all;
 }
 
+/// Whether cells of a body under `nodal` become Eulerian: other bodies then feel all of its particles from the start.
+bool may_convert(FormulationSpec const& formulation) {
+  auto const given = formulation.words.find("conversion");
+  return given != formulation.words.end() && given->second == "eulerian";
+}
+
 /// Whether the surface of a body may be lost to a contact of its formulation: then surfaces keep it apart only from
 /// bodies that lose theirs in the same way.
 bool may_lose_surface(FormulationSpec const& formulation) {
@@ -39,6 +45,7 @@ bool have_surfaces(Assembly const& whole, std::size_t a, std::size_t b) {
     return info && info->contact;
   };
   auto const& bodies = whole.particles.bodies;
+  if (a != b && (may_convert(whole.formulations[a]) || may_convert(whole.formulations[b]))) return false;
   return has(a) && has(b) &&
          ((keeps(a) && keeps(b)) ||
           (a != b && own(a) && own(b) && find_pair(whole.contact_pairs, bodies[a].name, bodies[b].name) != nullptr));

@@ -77,6 +77,7 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
              {.viscosity = options.viscous,
               .solids = options.solids,
               .failure = options.failure,
+              .converts = options.converts,
               .offset = !assembly.initial_deformation_gradient.empty(),
               .implicit_pressure = options.implicit_pressure,
               .axisymmetric = set.axisymmetric}) {
@@ -109,6 +110,11 @@ void NodalBody::make_reference(Assembly const& assembly, Backend const& backend)
     throw InputError(fmt::format(
         "body '{}': a support that holds the surface of a patch does not go together with mirror planes, of which the "
         "axis of axisymmetric bodies is one (allowed: hold = \"particles\") - change hold",
+        body_.name));
+  if (options_.converts && (!images_.empty() || set_->axisymmetric))
+    throw InputError(fmt::format(
+        "body '{}': conversion = \"eulerian\" knows neither mirror planes nor axisymmetric bodies yet (allowed: whole "
+        "bodies in plane strain or three dimensions) - leave conversion out, or take the formulation adaptle",
         body_.name));
   images_.keep(reference_.images);
 }

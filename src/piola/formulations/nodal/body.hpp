@@ -79,6 +79,7 @@ class NodalBody {
   /// rate form.
   double mean_of_points(Index slot, int number) const;
   bool is_broken(Index slot) const { return failure_value(slot, FailureLayout::condition) > 0; }
+  bool is_eulerian(Index slot) const { return state_.has.converts && is_broken(slot); }
   /// A value of FailureLayout; 0 for bodies whose cells cannot fail.
   double failure_value(Index slot, int of) const {
     return state_.has.failure ? value(state_.history, slot, Fields::failure_value(of, state_.dimension)) : 0;
@@ -99,7 +100,8 @@ class NodalBody {
     return D < 3 ? point_at(state_.x, slot, D, X(slot)) : point_at(state_.x, slot, 3);
   }
   std::array<double, 3> v(Index slot) const { return point_at(state_.v, slot, state_.dimension); }
-  Mat<3> F(Index slot) const;  ///< at the centroid of the cell; missing directions: mean over its points
+  /// At the centroid of the cell; missing directions: mean over its points. I for Eulerian cells.
+  Mat<3> F(Index slot) const;
   MaterialRange const& material(Index slot) const { return materials_.of(slot); }
   double mass(Index slot) const { return reference_.own_fraction(slot) * value(state_.mass, slot); }
   /// Mass of any particle [kg]. On all ranks if surface contact acts on the body, or its cells may fail.

@@ -15,12 +15,29 @@ constexpr double least_ratio = 0.1;
 constexpr double tether = 1;
 /// Contact takes the motion of a surface point from the particles within this distance, in spacings.
 constexpr double host_reach = 1.6;
+/// Volume ratio and stretch, sqrt(F:F) and sqrt(F:F) / J, at which an intact cell becomes Eulerian, if it may.
+constexpr double least_volume = 0.3, most_volume = 3, most_stretch = 4.5;
+/// Least volume ratio that an Eulerian cell starts with.
+constexpr double least_converted = 0.1;
 /// Particles within this distance from one of a broken cell may be in contact with those of other pieces, in spacings.
 constexpr double beside_crack = 1.5;
 
+/// Equivalent strain sqrt(2/3 E':E') of the Green-Lagrange strain, eq. (18) of docs/theory/adaptle.md.
+double equivalent_strain(Mat<3> const& F) {
+  Mat<3> const E = 0.5 * (transpose(F) * F - identity<3>());
+  double const mean = trace(E) / 3;
+  double square = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      double const deviator = E(i, j) - (i == j ? mean : 0);
+      square += deviator * deviator;
+    }
+  return std::sqrt(2.0 / 3 * square);
+}
+
 }  // namespace
 
-CellFailure::CellFailure(NodalBody& body, Backend const& backend) : body_(body), backend_(backend), fragments_(body) {
+CellFailure::CellFailure(NodalBody& body, Backend const& backend) : body_(body), backend_(backend), fragments_(body), eulerian_(body) {
   if (!body_.reference().refits) return;
   near_crack_.resize(static_cast<std::size_t>(body_.slots()));
   lost_.resize(near_crack_.size());
@@ -35,23 +52,14 @@ CellCondition CellFailure::condition(Index slot) const {
   return static_cast<CellCondition>(static_cast<int>(value(slot, FailureLayout::condition)));
 }
 
+/// Whether the stress of a cell follows from its gradients.
+bool CellFailure::needs_gradients(Index slot) const {
+  return !body_.state().has.converts || condition(slot) == CellCondition::intact;
+}
+
 /// The condition that a cell gets if its gradients do not serve any more.
 CellCondition CellFailure::next_condition(Index slot) const {
   return condition(slot) == CellCondition::intact ? CellCondition::broken : CellCondition::detached;
-}
-
-/// By the stored gradients.
-double CellFailure::volume_ratio(Index slot) const {
-  int const D = body_.state().dimension, points = Fields::points(D);
-  double sum = 0;
-  for (int q = 0; q < points; ++q) {
-    Mat<3> F = identity<3>();
-    int const at = HistoryLayout::point(q, D) + HistoryLayout::F;
-    for (int c = 0; c < D * D; ++c) F(c / D, c % D) = value_at(body_.state().history, slot, at + c);
-    if (D == 2) F(2, 2) = value_at(body_.state().history, slot, at + 4);
-    sum += determinant(F) / points;
-  }
-  return sum * value(slot, FailureLayout::volume_factor);
 }
 
 /// Local cells that fail now, and particles that come off.
@@ -62,16 +70,31 @@ CellFailure::Changes CellFailure::find() const {
       case CellCondition::intact:
         if (value(i, FailureLayout::softening) >= 1 || !(value_at(body_.state().change, i, 1) > least_ratio))
           found.push_back({i, CellCondition::broken});
+        else if (converts(i))
+          found.push_back({i, CellCondition::broken});
         else if (near_crack_[static_cast<std::size_t>(i)] != 0)
           find_detached(i, found);
         break;
       case CellCondition::broken:
-        if (!(volume_ratio(i) > least_ratio)) found.push_back({i, CellCondition::detached});
+        if (!body_.state().has.converts && !(volume_ratio_at(body_.state(), i) > least_ratio)) found.push_back({i, CellCondition::detached});
         break;
       case CellCondition::detached: break;
     }
   }
   return found;
+}
+
+/// Whether an intact cell becomes Eulerian by its strain, or because it is so deformed that its gradients do not serve.
+bool CellFailure::converts(Index slot) const {
+  auto const& s = body_.state();
+  if (!s.has.converts) return false;
+  Mat<3> F = identity<3>();
+  int const D = s.dimension;
+  for (int c = 0; c < D * D; ++c) F(c / D, c % D) = body_.mean_of_points(slot, HistoryLayout::F + c);
+  if (D == 2) F(2, 2) = body_.mean_of_points(slot, HistoryLayout::F + 4);
+  double const J = volume_ratio_at(s, slot), stretch = std::sqrt(trace(transpose(F) * F) - (3 - D));
+  return !(J > least_volume && J < most_volume && stretch < most_stretch * std::min(1.0, J)) ||
+         equivalent_strain(F) >= body_.options().convert_strain;
 }
 
 /// Particles of broken cells that are farther than the tether from where the gradient of an intact cell has them.
@@ -121,12 +144,17 @@ CellFailure::Changes CellFailure::over_ranks(Changes found) const {
   return found;
 }
 
-/// Stores the condition of a local cell. A detached cell is at rest in its reference shape.
+/// Stores the condition of a local cell. A detached or Eulerian cell is at rest in its reference shape.
 void CellFailure::put(Refits::Change const& change) const {
   auto const& s = body_.state();
   int const D = s.dimension;
   if (change.slot < body_.own().first || change.slot >= body_.own().last) return;
+  bool const was_intact = condition(change.slot) == CellCondition::intact;
   value(change.slot, FailureLayout::condition) = static_cast<double>(change.condition);
+  if (s.has.converts) {
+    if (was_intact) make_eulerian(s, change.slot, std::max(volume_ratio_at(s, change.slot), least_converted));
+    return;
+  }
   if (change.condition != CellCondition::detached) return;
   value(change.slot, FailureLayout::volume_factor) = 1;
   value(change.slot, FailureLayout::refitted) = 0;
@@ -156,6 +184,7 @@ void CellFailure::lose_surfaces(Index detached) {
 
 CellFailure::Changes CellFailure::set(Changes const& changes) {
   for (Refits::Change const& change : changes) {
+    if (body_.state().has.converts && body_.reference().refits->is_intact(change.slot)) eulerian_.add(change.slot);
     put(change);
     if (change.condition == CellCondition::detached) lose_surfaces(change.slot);
     for (Index const slot : body_.reference().refits->near(change.slot, beside_crack)) fragments_.add(slot);
@@ -167,7 +196,8 @@ CellFailure::Changes CellFailure::set(Changes const& changes) {
     value(slot, FailureLayout::refitted) = 1;
   }
   Changes more;
-  for (Index const slot : found.unsolvable) more.push_back({slot, next_condition(slot)});
+  for (Index const slot : found.unsolvable)
+    if (needs_gradients(slot)) more.push_back({slot, next_condition(slot)});
   changed_.insert(changed_.end(), found.changed.begin(), found.changed.end());
   return more;
 }
@@ -189,13 +219,28 @@ bool CellFailure::propagate(Changes changes) {
     Changes more = set(changes);
     take_over();
     for (Index const slot : changed_)
-      if (value(slot, FailureLayout::refitted) > 0) more.push_back({slot, next_condition(slot)});
+      if (needs_gradients(slot) && value(slot, FailureLayout::refitted) > 0)
+        more.push_back({slot, next_condition(slot)});
     changes = std::move(more);
   }
   return any;
 }
 
-bool CellFailure::update() { return body_.reference().refits && propagate(find()); }
+void CellFailure::begin_step(double dt) const {
+  fragments_.kick(0.5 * dt);
+  eulerian_.kick(0.5 * dt);
+}
+
+bool CellFailure::end_step(double dt, bool failed) {
+  eulerian_.advance(dt);
+  eulerian_.kick(0.5 * dt);
+  bool const changed = !failed && body_.reference().refits && propagate(find());
+  if (changed || crushed_) eulerian_.join();
+  crushed_ = false;
+  find_contact();
+  fragments_.kick(0.5 * dt);
+  return changed;
+}
 
 void CellFailure::find_contact() {
   fragments_.evaluate();
@@ -205,11 +250,13 @@ void CellFailure::find_contact() {
 void CellFailure::crush(std::vector<Index> const& slots) {
   Changes changes;
   for (Index const slot : slots) changes.push_back({slot, next_condition(slot)});
-  propagate(std::move(changes));
+  crushed_ = propagate(std::move(changes)) || crushed_;
 }
 
 void CellFailure::save(StateWriter& writer, std::string const& name) const {
-  if (body_.reference().refits) writer.put_sized(name + "_size", name, fragments_.state());
+  if (!body_.reference().refits) return;
+  writer.put_sized(name + "_size", name, fragments_.state());
+  writer.put_sized(name + "_motion_size", name + "_motion", eulerian_.state());
 }
 
 void CellFailure::load(StateReader& reader, std::string const& name) {
@@ -222,6 +269,7 @@ void CellFailure::load(StateReader& reader, std::string const& name) {
   for (Index i = body_.own().first; i < body_.own().last; ++i) value(i, FailureLayout::refitted) = 0;
   fragments_.load(reader.get_sized(name + "_size", name));
   find_contact();
+  eulerian_.load(reader.get_sized(name + "_motion_size", name + "_motion"));
 }
 
 }  // namespace piola::nodal

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/nodal/body.hpp"
+#include "piola/formulations/nodal/eulerian_cells.hpp"
 #include "piola/formulations/nodal/fragment_contact.hpp"
 #include <vector>
 
@@ -15,13 +16,15 @@ class CellFailure {
   CellFailure(CellFailure const&) = delete;
   CellFailure& operator=(CellFailure const&) = delete;
 
-  /// After a step. Returns whether gradients have changed. Collective.
-  bool update();
-  /// Adds the impulse of the contact of pieces during dt [s] to the velocities.
-  void kick(double dt) const { fragments_.kick(dt); }
-  /// Computes the contact of pieces at the present positions. Collective.
-  void find_contact();
+  /// Before the particles move by the step dt [s]: adds to the velocities the impulse of the forces that do not follow
+  /// from gradients, those of the contact of pieces and of Eulerian cells.
+  void begin_step(double dt) const;
+  /// After that: lets cells fail, and adds the second half of the impulse. Returns whether gradients have changed.
+  /// `failed`: whether the body has failed to move. Collective.
+  bool end_step(double dt, bool failed);
+  /// Squares of the largest frequencies of the contact of pieces, and of Eulerian cells [1/s2].
   double contact_frequency2() const { return fragments_.frequency2(); }
+  double eulerian_frequency2() const { return eulerian_.frequency2(); }
   /// Lets local cells fail, at the start of a step that crushes them however short it is. Collective.
   void crush(std::vector<Index> const& slots);
   void save(StateWriter& writer, std::string const& name) const;
@@ -37,9 +40,10 @@ class CellFailure {
 
   double& value(Index slot, int of) const;
   CellCondition condition(Index slot) const;
+  bool needs_gradients(Index slot) const;
   CellCondition next_condition(Index slot) const;
-  double volume_ratio(Index slot) const;
   Changes find() const;
+  bool converts(Index slot) const;
   void find_detached(Index slot, Changes& found) const;
   Changes over_ranks(Changes found) const;
   void put(Refits::Change const& change) const;
@@ -50,13 +54,16 @@ class CellFailure {
   void put_gradients(Index slot) const;
   void lose_surfaces(Index detached);
   void take_over();
+  void find_contact();
 
   NodalBody& body_;
   Backend const& backend_;
   FragmentContact fragments_;
+  EulerianCells eulerian_;
   std::vector<char> near_crack_;  ///< per slot, of local cells: gradients have changed
   std::vector<char> lost_;        ///< per slot, on all ranks alike
   std::int64_t lost_count_ = 0;
+  bool crushed_ = false;  ///< cells have failed at the start of the present step
   std::vector<Index> changed_;  ///< local slots whose gradients have changed since the last step
 };
 

@@ -63,7 +63,8 @@ enum class CellCondition : char { intact, broken, detached };
 struct FieldNeeds {
   bool viscosity = false;
   bool solids = false;   ///< some cell has a solid in rate form
-  bool failure = false;  ///< cells may fail
+  bool failure = false;   ///< cells may fail
+  bool converts = false;  ///< cells that fail become Eulerian
   bool offset = false;   ///< F starts from given values
   bool implicit_pressure = false;
   bool axisymmetric = false;

@@ -9,7 +9,7 @@ namespace piola::nodal {
 /// Contact of the pieces of one body whose cells have failed: linear springs between particles of broken cells and
 /// those beside them, at least three spacings apart in the reference configuration, that come nearer than 0.6 spacings.
 /// Pairs that are nearer when a cell beside them breaks, as in sheared material, push from that distance on, so that
-/// the energy does not jump. No friction. Central forces of an energy of positions: momenta and energy are kept.
+/// the energy does not jump. Eulerian cells, which see all particles, have none. No friction. Central forces of an energy of positions: momenta and energy are kept.
 /// Theory: docs/theory/nodal.md, "Failure".
 class FragmentContact {
  public:

@@ -82,7 +82,8 @@ void add_diagnostics(NodalBody const& body, NodalDiagnosticsSum& o) {
     o.plastic_work.add(&plastic);
     if (body.state().has.failure) add_failure(body, i, o);
     o.least_jacobian = std::min(o.least_jacobian, least);
-    double const J = body.is_broken(i) ? 1 : cell(body, i, mean_J);  // that of a broken cell is the width of its crack
+    // The volume ratio of a broken cell that follows its gradients is the width of its crack.
+    double const J = body.is_broken(i) && !body.is_eulerian(i) ? 1 : cell(body, i, mean_J);
     o.add_state(J, p, V);
     o.add_motion(body.x(i), body.v(i), body.mass(i));
     o.of_cells.add_state(J, of_cells[static_cast<std::size_t>(i)], V);
@@ -171,8 +172,8 @@ void observe_each(NodalBody const& body, int body_number, LazyZeroArray<double> 
     for (std::size_t c = 0; c < 3; ++c) p.displacement[c] = p.x[c] - X[c];
     p.F = body.F(i);
     p.P = first_piola(body, i);
-    p.cauchy = cauchy_stress(p.P, p.F, determinant(p.F));
     p.J = cell(body, i, mean_J);
+    p.cauchy = cauchy_stress(p.P, p.F, body.is_eulerian(i) ? p.J : determinant(p.F));
     p.least_J = cell(body, i, least_J);
     p.pressure = smooth.empty() ? 0 : smooth[static_cast<std::size_t>(i)];
     p.cell_pressure = cell_pressure(body, i);
@@ -231,6 +232,7 @@ double NodalBody::mean_of_points(Index slot, int number) const {
 
 Mat<3> NodalBody::F(Index slot) const {
   Mat<3> r = identity<3>();
+  if (is_eulerian(slot)) return r;
   int const D = state_.dimension;
   for (int c = 0; c < D * D; ++c) r(c / D, c % D) = value(state_.F, slot, c);
   for (int c = D; c < 3; ++c) r(c, c) = value(state_.cell, slot, 3);

@@ -37,11 +37,16 @@ constexpr std::array parameters{
     Parameter{"energy_tolerance", "1",
               "share of the largest energy by which total energy may rise and fall with the accelerations, as it does "
               "in Verlet steps: steps are shortened to it; 0: steps are limited by stability alone",
-              Interval{0, 1}, no_default, "0.001; pressure = \"implicit\" 0"}};
+              Interval{0, 1}, no_default, "0.001; pressure = \"implicit\" 0"},
+    Parameter{"convert_strain", "1",
+              "with conversion = \"eulerian\": equivalent strain, eq. 18 of AdapTLE, at which a cell converts that has not "
+              "failed",
+              Interval{0, 1e300}, no_default, "none"}};
 
 constexpr std::array<std::string_view, 5> assumption_words{"as_dimension", "plane_strain", "plane_stress",
                                                            "uniaxial_strain", "uniaxial_stress"};
 constexpr std::array<std::string_view, 2> pressure_words{"explicit", "implicit"};
+constexpr std::array<std::string_view, 2> conversion_words{"never", "eulerian"};
 constexpr std::array choices{
     Choice{"assumption",
            "about the directions that a body does not have; as_dimension: 1D uniaxial_strain, 2D plane_strain",
@@ -50,7 +55,12 @@ constexpr std::array choices{
         "pressure",
         "implicit: steps are not limited by pressure waves, which is faster for slender bodies above a Poisson's ratio "
         "of 0.49 in slow motion; waves shorter than a step are lost",
-        pressure_words}};
+        pressure_words},
+    Choice{"conversion",
+           "of cells that have failed, or are too deformed for gradients in the reference configuration; eulerian: "
+           "their material flows on as Eulerian particles, AdapTLE's idea; never: particles of failed cells press, then "
+           "come off",
+           conversion_words}};
 
 /// Columns of Diagnostics::more (observe.cpp).
 constexpr std::array diagnostics{
@@ -115,6 +125,18 @@ void check_failure(FormulationSpec const& spec, MaterialParameters const& materi
   });
 }
 
+/// Rejects what Eulerian cells do not support.
+void check_conversion(FormulationSpec const& spec, bool hyperelastic, Problems& problems) {
+  if (hyperelastic)
+    problems.add({},
+                 "formulation: conversion = \"eulerian\" is for solids in rate form, whose stress does not follow from F "
+                 "(allowed: such as elastic, johnson_cook) - take one of them, or leave conversion out");
+  if (number_of(spec, "fluctuation_viscosity", 0) > 0)
+    problems.add({},
+                 "formulation: fluctuation_viscosity would hold particles that convert (allowed: 0 with conversion = "
+                 "\"eulerian\") - leave it out");
+}
+
 /// Rejects what an implicit pressure does not support.
 void check_implicit(FormulationSpec const& spec, std::vector<MaterialParameters> const& materials, int dimension,
                     bool stress_free, Problems& problems) {
@@ -149,6 +171,11 @@ Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters
     problems.add({},
                  "material: a part that fails and a hyperelastic one cannot be one body (allowed: solids in rate form, "
                  "such as elastic) - take elastic for the hyperelastic part, or make the parts bodies and tie them");
+  bool const converts = word_of(spec, choices, "conversion") == "eulerian";
+  double const convert_strain = number_of(spec, "convert_strain", unbounded);
+  if (convert_strain < unbounded && !converts)
+    problems.add({}, "formulation: convert_strain is for conversion = \"eulerian\" - add that, or leave it out");
+  if (converts) check_conversion(spec, hyperelastic, problems);
   bool const implicit_pressure = word_of(spec, choices, "pressure") == "implicit";
   if (implicit_pressure) check_implicit(spec, materials, dimension, stress_free, problems);
   problems.raise_if_any();
@@ -164,7 +191,9 @@ Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters
   o.stress_free = stress_free;
   o.cfl = std::isnan(cfl) ? 0 : cfl;
   o.solids = solids;
-  o.failure = std::any_of(materials.begin(), materials.end(), &fails);
+  o.converts = converts;
+  o.convert_strain = convert_strain;
+  o.failure = converts || std::any_of(materials.begin(), materials.end(), &fails);
   return o;
 }
 

@@ -16,6 +16,8 @@ struct Options {
   double energy_tolerance = 1e-3;         ///< error of Verlet steps, relative to the largest energy; 0: any
   bool solids = false;                    ///< whether some material is a solid in rate form
   bool failure = false;                   ///< whether cells may fail
+  bool converts = false;                  ///< whether such cells become Eulerian
+  double convert_strain = unbounded;      ///< equivalent strain at which others do
   bool implicit_pressure = false;
   bool stress_free = false;  ///< plane stress, uniaxial stress
   double cfl = 0;            ///< step in units of spacing over p-wave speed at rest; 0: from the stability limit

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/exec/field_view.hpp"
 #include "piola/formulations/nodal/cell_stress.hpp"
-#include "piola/formulations/nodal/quadratic.hpp"
-#include "piola/formulations/nodal/state.hpp"
+#include "piola/formulations/nodal/solid_cell_state.hpp"
 #include "piola/materials/finite_increment.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
-#include "piola/math/embedding.hpp"
-#include "piola/math/scalar.hpp"
 
 /// Cells of solids in rate form: their stresses follow from the state that the last step stored at their points, and
 /// from the present deformation gradients. Theory: docs/theory/nodal.md, "Solids in rate form".
@@ -47,14 +43,13 @@ class SolidCells {
         last_(range.last),
         fails_(body.has.failure),
         failure_(range.failure),
-        history_(read(body.history)),
-        history_out_(write(body.history)) {}
+        history_(body) {}
 
   /// Stresses, volume ratios and energy of the cells of a group of lanes from their F.
   template <class Energy>
   PIOLA_FN void operator()(Index i, Energy& energy) const {
     energy.mean_J = Lanes(0.0);
-    if (fails_) rest_detached(i, energy);
+    if (fails_) put_at_rest(i, energy);
     for (int q = 0; q < points; ++q) {
       energy.J[q] = determinant(energy.F[q]);
       energy.mean_J = energy.mean_J + (1.0 / points) * energy.J[q];
@@ -75,23 +70,13 @@ class SolidCells {
     energy.mean_J = cell.volume_factor * energy.mean_J;
     energy.least_J = select(cell.is_intact(), energy.least_J, Lanes(1.0));  // broken cells may be inverted
   }
+  /// `value`, and 0 for cells whose gradients are without use.
+  PIOLA_FN Lanes where_used(Index i, Lanes const& value) const {
+    return fails_ ? select(history_.rests(i), Lanes(0.0), value) : value;
+  }
 
  private:
-  /// The cells of a group of lanes at one instant.
-  struct Cell {
-    Mat<3, Lanes> F[points];
-    SymMat<3, Lanes> S[points];
-    Lanes spread[points];  ///< tension of a point over that of the cell [Pa]
-    Lanes pressure;        ///< of the cell, positive in compression [Pa]
-    Lanes shock_pressure;  ///< viscous, of the cell [Pa]
-    Lanes energy;          ///< specific internal energy [J/kg]
-    // Cells that may fail have these values, too, see FailureLayout.
-    Lanes condition, volume_factor, toughness;
-    Lanes carried;  ///< share of tension and shear that is left, 0 for cells that are not intact
-
-    PIOLA_FN auto is_intact() const { return condition < 0.5; }
-    PIOLA_FN auto is_detached() const { return condition > 1.5; }
-  };
+  using Cell = SolidCellState<D>;
 
   template <class Law>
   static PIOLA_FN void update(void const* law, SolidHistory& history, SymMat<3> const& trial, double pressure,
@@ -168,7 +153,7 @@ class SolidCells {
     Lanes const closing = maximum((1 / dt_) * (before - mean_J), Lanes(0.0));
     if (!fails_) return shock_ * closing * closing / mean_J;
     Lanes const Q = shock_ * cell.volume_factor * closing * closing / maximum(mean_J, Lanes(least_ratio));
-    return select(cell.is_detached(), Lanes(0.0), Q);
+    return select(history_.rests(cell.condition), Lanes(0.0), Q);
   }
 
   /// Volume ratio of the cell for its density. That of a cell that is not intact has a lower bound: such cells may be
@@ -183,24 +168,23 @@ class SolidCells {
   PIOLA_FN Lanes carried_pressure(Cell const& cell, Lanes const& rho, Lanes const& e) const {
     Lanes const p = pressures(cell, rho, e);
     if (!fails_) return p;
-    return select(cell.is_detached(), Lanes(0.0), select(p < 0.0, cell.carried * p, p));
+    return select(history_.rests(cell.condition), Lanes(0.0), select(p < 0.0, cell.carried * p, p));
   }
 
-  /// Detached cells are at rest in their reference shape.
+  /// Detached and Eulerian cells are at rest in their reference shape.
   template <class Energy>
-  PIOLA_FN void rest_detached(Index i, Energy& energy) const {
-    auto const detached = history_.scalar<Lanes>(i, Fields::failure_value(FailureLayout::condition, D)) > 1.5;
-    if (!any(detached)) return;
+  PIOLA_FN void put_at_rest(Index i, Energy& energy) const {
+    auto const resting = history_.rests(i);
+    if (!any(resting)) return;
     for (int q = 0; q < points; ++q)
-      for (int c = 0; c < 9; ++c) energy.F[q].c[c] = select(detached, Lanes(c % 4 == 0 ? 1.0 : 0.0), energy.F[q].c[c]);
+      for (int c = 0; c < 9; ++c) energy.F[q].c[c] = select(resting, Lanes(c % 4 == 0 ? 1.0 : 0.0), energy.F[q].c[c]);
   }
 
   /// Takes over gradients that have changed: stress and density stay, and the volume factor makes up for the change of
   /// the volume ratio. A cell that the new gradients see crushed, or of quite another volume, keeps its mark.
   template <class Energy>
   PIOLA_FN void refit(Index i, Cell& cell, Energy const& energy) const {
-    int const mark = Fields::failure_value(FailureLayout::refitted, D);
-    auto const marked = history_.scalar<Lanes>(i, mark) > 0.5;
+    auto const marked = history_.of_failure(i, FailureLayout::refitted) > 0.5;
     if (!any(marked)) return;
     Lanes least = energy.J[0], before = Lanes(0.0);
     for (int q = 0; q < points; ++q) {
@@ -217,12 +201,12 @@ class SolidCells {
     cell.volume_factor = select(changed, cell.volume_factor * before / energy.mean_J, cell.volume_factor);
     for (int l = 0; l < lane_count; ++l) {
       if (!owns(i + l) || is_changed[l] == 0) continue;
-      history_out_.scalar(i + l, lane(cell.volume_factor, l), Fields::failure_value(FailureLayout::volume_factor, D));
-      history_out_.scalar(i + l, 0.0, mark);
+      history_.put_of_failure(i + l, lane(cell.volume_factor, l), FailureLayout::volume_factor);
+      history_.put_of_failure(i + l, 0.0, FailureLayout::refitted);
       for (int q = 0; q < points; ++q) {
         int const at = HistoryLayout::point(q, D) + HistoryLayout::F;
-        for (int c = 0; c < D * D; ++c) history_out_.scalar(i + l, lane(cell.F[q](c / D, c % D), l), at + c);
-        if constexpr (D == 2) history_out_.scalar(i + l, lane(cell.F[q](2, 2), l), at + D * D);
+        for (int c = 0; c < D * D; ++c) history_.put(i + l, lane(cell.F[q](c / D, c % D), l), at + c);
+        if constexpr (D == 2) history_.put(i + l, lane(cell.F[q](2, 2), l), at + D * D);
       }
     }
   }
@@ -259,8 +243,8 @@ class SolidCells {
     for (int l = 0; l < lane_count; ++l) {
       carried[l] = lane(cell.carried, l);
       if (!owns(i + l) || !(lane(cell.condition, l) < 0.5)) continue;
-      auto const value = [&](int of) { return history_.scalar<double>(i + l, Fields::failure_value(of, D)); };
-      auto const put = [&](int of, double now) { history_out_.scalar(i + l, now, Fields::failure_value(of, D)); };
+      auto const value = [&](int of) { return history_.of_failure_at(i + l, of); };
+      auto const put = [&](int of, double now) { history_.put_of_failure(i + l, now, of); };
       CellStress<points> const stress(cell, pressure, l);
       double const before = value(At::softening);
       double now = before;
@@ -287,7 +271,7 @@ class SolidCells {
   PIOLA_FN double mean_damage(Index i) const {
     double sum = 0;
     for (int q = 0; q < points; ++q)
-      sum += history_.scalar<double>(i, HistoryLayout::point(q, D) + HistoryLayout::damage) / points;
+      sum += history_.value(i, HistoryLayout::point(q, D) + HistoryLayout::damage) / points;
     return sum;
   }
 
@@ -304,7 +288,7 @@ class SolidCells {
       for (int c = 0; c < 6; ++c) left[c][l] = trial.c[c] = lane(S.c[c], l);
       share[l] = 1;
       if (!owns(i + l) || (fails_ && !(lane(cell.condition, l) < 0.5))) continue;
-      auto const value = [&](int c) { return history_.scalar<double>(i + l, at + c); };
+      auto const value = [&](int c) { return history_.value(i + l, at + c); };
       SolidHistory h;
       h.plastic_strain = value(At::plastic_strain);
       h.temperature = value(At::temperature);
@@ -316,10 +300,10 @@ class SolidCells {
       if (h.plastic_strain > strain) share[l] = von_mises(h.S) / von_mises(trial);
       grown[l] += (h.plastic_strain - strain) / points;
       for (int c = 0; c < 6; ++c) left[c][l] = h.S.c[c];
-      history_out_.scalar(i + l, h.plastic_strain, at + At::plastic_strain);
-      history_out_.scalar(i + l, h.temperature, at + At::temperature);
-      history_out_.scalar(i + l, h.damage, at + At::damage);
-      history_out_.scalar(i + l, h.plastic_work, at + At::plastic_work);
+      history_.put(i + l, h.plastic_strain, at + At::plastic_strain);
+      history_.put(i + l, h.temperature, at + At::temperature);
+      history_.put(i + l, h.damage, at + At::damage);
+      history_.put(i + l, h.plastic_work, at + At::plastic_work);
     }
     for (int c = 0; c < 6; ++c) S.c[c] = load<Lanes>(left[c]);
     return load<Lanes>(share);
@@ -334,48 +318,27 @@ class SolidCells {
   }
   PIOLA_FN bool owns(Index i) const { return i >= first_ && i < last_; }
 
+  /// The cells at the end of the last step. Eulerian ones, which carry their stress elsewhere, are empty here except for
+  /// output.
   PIOLA_FN Cell left_at(Index i) const {
-    auto const value = [&](int c) { return history_.scalar<Lanes>(i, c); };
-    Cell cell;
-    cell.pressure = value(HistoryLayout::pressure);
-    cell.shock_pressure = value(HistoryLayout::shock_pressure);
-    cell.energy = value(HistoryLayout::energy);
-    if (fails_) {
-      auto const of_failure = [&](int of) { return value(Fields::failure_value(of, D)); };
-      cell.condition = of_failure(FailureLayout::condition);
-      cell.volume_factor = of_failure(FailureLayout::volume_factor);
-      cell.toughness = of_failure(FailureLayout::toughness);
-      cell.carried = select(cell.is_intact(), Lanes(1.0 - of_failure(FailureLayout::softening)), Lanes(0.0));
+    Cell cell = history_(i);
+    if (!fails_) return cell;
+    auto const rests = history_.rests(cell.condition);
+    if (!any(rests)) return cell;
+    if (wanted_ == Wanted::as_left) {
+      cell.carried = select(rests, Lanes(1.0 - cell.softening), cell.carried);
+      return cell;
     }
-    for (int q = 0; q < points; ++q) {
-      int const at = HistoryLayout::point(q, D);
-      cell.spread[q] = value(at + HistoryLayout::spread);
-      for (int c = 0; c < 6; ++c) cell.S[q].c[c] = value(at + HistoryLayout::S + c);
-      Mat<D, Lanes> F;
-      for (int c = 0; c < D * D; ++c) F.c[c] = value(at + HistoryLayout::F + c);
-      cell.F[q] = embed<D>(F);
-      if constexpr (D == 2) cell.F[q](2, 2) = value(at + HistoryLayout::F + D * D);
-    }
+    cell.pressure = select(rests, Lanes(0.0), cell.pressure);
+    cell.shock_pressure = select(rests, Lanes(0.0), cell.shock_pressure);
     return cell;
   }
-  /// Stores the state, except what return_to_yield has stored.
+  /// Stores the state of cells that do not rest.
   PIOLA_FN void keep(Index i, Cell const& cell) const {
-    double own[lane_count];
-    for (int l = 0; l < lane_count; ++l) own[l] = owns(i + l) ? 1 : 0;
-    auto const mine = load<Lanes>(own) > 0.5;
-    auto const put = [&](Lanes const& now, int c) {
-      history_out_.scalar(i, select(mine, now, history_.scalar<Lanes>(i, c)), c);
-    };
-    put(cell.pressure, HistoryLayout::pressure);
-    put(cell.energy, HistoryLayout::energy);
-    put(cell.shock_pressure, HistoryLayout::shock_pressure);
-    for (int q = 0; q < points; ++q) {
-      int const at = HistoryLayout::point(q, D);
-      put(cell.spread[q], at + HistoryLayout::spread);
-      for (int c = 0; c < 6; ++c) put(cell.S[q].c[c], at + HistoryLayout::S + c);
-      for (int c = 0; c < D * D; ++c) put(cell.F[q](c / D, c % D), at + HistoryLayout::F + c);
-      if constexpr (D == 2) put(cell.F[q](2, 2), at + HistoryLayout::F + D * D);
-    }
+    double mine[lane_count];
+    for (int l = 0; l < lane_count; ++l)
+      mine[l] = owns(i + l) && !(fails_ && history_.rests_at(i + l)) ? 1 : 0;
+    history_.put(i, cell, mine);
   }
 
   static constexpr double least_ratio = 0.05;    ///< of the volume of a cell that is not intact
@@ -390,8 +353,7 @@ class SolidCells {
   Index first_, last_;
   bool fails_;  ///< cells may fail
   FailureConstants failure_;
-  View history_;
-  WriteView history_out_;
+  SolidCellHistory<D> history_;
 };
 
 }  // namespace piola::nodal::inline PIOLA_BACKEND

@@ -61,14 +61,12 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
     actions_.begin_step(bodies_, dt);
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
       bodies_[k]->set_observed(false);
-      failures_[k]->kick(0.5 * dt);
+      failures_[k]->begin_step(dt);
       int const halvings = bodies_[k]->step(backend_, time, dt);
       repeated_ += halvings;
-      if (bodies_[k]->state().failure->index >= bodies_[k]->particles() && failures_[k]->update())
-        monitors_[k]->expect_change();
-      failures_[k]->find_contact();
-      failures_[k]->kick(0.5 * dt);
-      monitors_[k]->set_contact(failures_[k]->contact_frequency2());
+      bool const failed = bodies_[k]->state().failure->index < bodies_[k]->particles();
+      if (failures_[k]->end_step(dt, failed)) monitors_[k]->expect_change();
+      tell_frequencies(k);
       monitors_[k]->update(dt, halvings);
     }
     end_step(time + dt);
@@ -115,6 +113,9 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
   RunStatistics statistics() const override;
 
  private:
+  void tell_frequencies(std::size_t k) {
+    monitors_[k]->set_other_frequencies(failures_[k]->contact_frequency2(), failures_[k]->eulerian_frequency2());
+  }
   void end_step(double time) {
     actions_.end_step(bodies_);
     time_ = time;
@@ -266,7 +267,7 @@ void Solver::load(StateReader& reader) {
     load_fields(reader, k);
     failures_[k]->load(reader, fmt::format("body{}_pieces", k));
     monitors_[k]->load(reader, fmt::format("body{}_step_limit", k));
-    monitors_[k]->set_contact(failures_[k]->contact_frequency2());
+    tell_frequencies(k);
     if (!descents_.empty()) descents_[k].load(reader, fmt::format("body{}_direction", k));
     std::array<double, 2> energy_totals{};
     reader.get(fmt::format("body{}_energy_books", k), energy_totals);

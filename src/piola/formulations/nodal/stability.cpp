@@ -236,7 +236,8 @@ void StabilityMonitor::update(double dt, int halvings) {
 
 double StabilityMonitor::frequency() const {
   double const of_body = lift * std::max(frequency_, start_);
-  return contact_frequency2_ > 0 ? std::sqrt(of_body * of_body + contact_frequency2_) : of_body;
+  if (!(contact_frequency2_ > 0 || eulerian_frequency2_ > 0)) return of_body;
+  return std::sqrt(std::max(of_body * of_body, eulerian_frequency2_) + contact_frequency2_);
 }
 
 double StabilityMonitor::step() const {
@@ -250,7 +251,10 @@ double StabilityMonitor::calm_step() const { return step_at(calm_share); }
 
 double StabilityMonitor::step_at(double fraction) const {
   PIOLA_EXPECTS(fraction > 0);
-  if (is_given()) return body_.options().cfl * body_.state().constants.unit_step;
+  if (is_given()) {
+    double const given = body_.options().cfl * body_.state().constants.unit_step;
+    return eulerian_frequency2_ > 0 ? std::min(given, fraction * 2 / std::sqrt(eulerian_frequency2_)) : given;
+  }
   // Viscous forces of the last step reduce the limit: sqrt(1 + xi^2) - xi, with xi their fraction of critical damping.
   auto const& s = body_.state();
   double const xi = 0.5 * frequency() * s.viscosity.fluctuation / (s.constants.kappa_local + 4 * s.constants.mu / 3);

@@ -29,8 +29,12 @@ class StabilityMonitor {
   void update(double dt, int halvings);
   /// Gradients have changed since the last measurement: the next one is due after a few steps.
   void expect_change() { gradients_changed_ = 1; }
-  /// Square of the frequency of the contact of pieces, which adds to that of the last measurement [1/s2].
-  void set_contact(double frequency2) { contact_frequency2_ = frequency2; }
+  /// Squares of the largest frequencies of Eulerian cells, where they exceed that of the last measurement, and of the
+  /// contact of pieces, which adds to both [1/s2].
+  void set_other_frequencies(double contact2, double eulerian2) {
+    contact_frequency2_ = contact2;
+    eulerian_frequency2_ = eulerian2;
+  }
   /// Next step [s]: a fraction of the stability limit, smaller the faster strains change.
   double step() const;
   /// Step [s] after the first measurement in motion if strains change slowly.
@@ -84,7 +88,8 @@ class StabilityMonitor {
   double recent_max_ = 0;               ///< largest indicator since its last reset or confirmation
   double recent_max_age_ = 0;           ///< age of that, in equivalents of slow steps
   double gradients_changed_ = 0;        ///< 1: since the last measurement
-  double contact_frequency2_ = 0;       ///< see set_contact(); follows from the positions
+  /// See set_other_frequencies().
+  double contact_frequency2_ = 0, eulerian_frequency2_ = 0;
 };
 
 }  // namespace piola::nodal

@@ -136,7 +136,9 @@ struct UpdateStress {
     else {
       Lanes const allowed = constants.least_share * kept.template scalar<Lanes>(i, 3 * D);
       if (any(!(energy.least_J > maximum(allowed, Lanes(0.0))))) record_failure(i, energy.least_J, allowed);
-      change.scalar(i, largest_change(i, at.F), 0);
+      Lanes largest = largest_change(i, at.F);
+      if constexpr (std::is_same_v<Law, SolidCells<D>>) largest = law.where_used(i, largest);
+      change.scalar(i, largest, 0);
       change.scalar(i, energy.least_J, 1);
       Lanes rows[D][numbers];
       out.rows_of(i, energy.P, rows);
