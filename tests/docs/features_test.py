@@ -121,6 +121,15 @@ def description(names):
     return make
 
 
+def torn(names):
+    """As description(), of a metal."""
+    def make(formulation):
+        made = metal()(formulation)[0] if formulation == "nodal" else plain(formulation)
+        made["body"][0]["formulation"] |= names.get(formulation, {"description": "none"})
+        return made, None
+    return make
+
+
 def shape(**given):
     return lambda formulation: (case(body(formulation, dict(given))), None)
 
@@ -286,8 +295,9 @@ FEATURES = {
     "total Lagrangian": description({"nodal": {}, "jst_sph": {}, "adaptle": {"description": "total_lagrangian"}}),
     "updated Lagrangian or Eulerian": description({"taylor_sph": {"configuration": "updated"},
                                                    "adaptle": {"description": "eulerian"}}),
-    "from one to the other where material is torn": description({"adaptle": {"description": "adaptive",
-                                                                             "convert_strain": 0.1}}),
+    "from one to the other where material is torn": torn({"nodal": {"conversion": "eulerian", "convert_strain": 0.1},
+                                                          "adaptle": {"description": "adaptive",
+                                                                      "convert_strain": 0.1}}),
     "`linear_elastic`": material(law="linear_elastic", **STEEL),
     "`neo_hookean`": material(law="neo_hookean", **STEEL),
     "`mooney_rivlin`": material(law="mooney_rivlin", **STEEL),

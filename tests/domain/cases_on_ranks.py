@@ -365,6 +365,27 @@ kind = "maximum"
 quantities = ["position_x", "pressure"]
 """
 # Each row looks at particles of other ranks, once these are cut anew.
+# Cells that turn Eulerian in both bodies, in fast contact and within a plate that is held.
+FLOWING = """title = "Disc and plate of nodal that turn Eulerian"
+[run]
+end = "1.5 us"
+[[body]]
+name = "disc"
+shape = { sphere = { centre = ["-3 mm", "0.2 mm"], radius = "3 mm" }, spacing = "0.5 mm" }
+material = { name = "aluminium_spall" }
+formulation = { name = "nodal", conversion = "eulerian", convert_strain = 0.01 }
+initial_velocity = ["2500 m/s", "100 m/s"]
+[[body]]
+name = "plate"
+shape = { box = { min = ["0 mm", "-6 mm"], max = ["1.5 mm", "6 mm"] }, placement = "cell_centred", spacing = "0.5 mm" }
+material = { name = "aluminium_spall" }
+formulation = { name = "nodal", conversion = "eulerian", convert_strain = 0.01 }
+[[support]]
+body = "plate"
+where = "abs(Y) > 5.4e-3"
+fix = "xy"
+"""
+
 PROBED_TORN = TORN + "".join(
     probe(f"{kind}_{body}", body, kind, more) for body, x in (("disc", -1), ("plate", 1)) for kind, more in (
         ("point", f'at = ["{x} mm", "0 mm"]\n' + POINTS.replace("FIELD", "kernel_type")),
@@ -464,6 +485,7 @@ OWN_CASES = {name: text + OUTPUT for name, text in {
     "Taylor-SPH between others": TAYLOR_BETWEEN,
     "torn plate": TORN,
     "torn plate with probes": PROBED_TORN,
+    "disc and plate that flow": FLOWING,
     "deleted disc": TORN.replace("convert_strain = 0.05", 'description = "total_lagrangian", failed = "delete", '
                                                           "convert_strain = 0.05"),
     "rubbing bar of AdapTLE": RUBBING,

@@ -21,10 +21,11 @@ from on_ranks import (ENVIRONMENT, QUICK, SOURCE, checkpoint, contents, differen
 
 STEPS = 20
 QUICK_PART = ["cases/jst_sph/bending_column", "touching bodies", "probed", "adjoint, boxes", "torn plate",
-              "damped patch", "deleted", "columns", "large files", "restarts", "words"]
+              "that flow", "damped patch", "deleted", "columns", "large files", "restarts", "words"]
 OFTEN = "run.repartition=3"  # steps
 SHOWN = {"crushed cells": "repeated_steps", "torn plate": "converted_particles",
          "torn plate with probes": "converted_particles",  # columns above zero at the end
+         "disc and plate that flow": "eulerian_particles",
          "deleted disc": "deleted_particles", "rubbing bar of AdapTLE": "friction_heat"}
 SHARED = re.compile(r'name = "(jst_sph|nodal|taylor_sph|adaptle)"')  # the formulations of bodies that ranks share
 # What no case of one rank has together: two bodies, a metal, jitter, a mirror plane, loads, a release.

@@ -71,6 +71,12 @@ struct FormulationSpec {
   std::map<std::string, double, std::less<>> numbers;
   std::map<std::string, std::string, std::less<>> words;
   std::map<std::string, Expression, std::less<>> formulas = {};
+
+  /// Whether this word is given for a choice.
+  bool says(std::string_view choice, std::string_view word) const {
+    auto const given = words.find(choice);
+    return given != words.end() && given->second == word;
+  }
 };
 
 /// The word given for a choice, else the first allowed one.

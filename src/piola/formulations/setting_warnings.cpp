@@ -60,4 +60,17 @@ double poissons_ratio_of(MaterialParameters const& material) {
   return ratio;
 }
 
+void warn_of_tension(BodyWarnings& warnings) {
+  bool unlimited = false;
+  with_solid(warnings.material(), [&](auto const& law) {
+    unlimited = !law.brittle && !law.damages && !(law.spall_pressure < unbounded) && law.front_speed() == 0 &&
+                law.yield_stress({}, 0) < unbounded;
+  });
+  if (unlimited)
+    warnings.add(
+        "material.spall_pressure",
+        "nothing limits the tension of a metal in Eulerian particles (where it is fast, hundreds of GPa of it, and "
+        "energies below zero) - give spall_pressure or a damage law");
+}
+
 }  // namespace piola

@@ -53,6 +53,9 @@ class BodyWarnings {
 bool varies_between(std::span<std::int64_t const> particles, Expression const& formula, ParticleSet const& set,
                     double t);
 
+/// Warns of a metal without a limit of tension, for a body whose particles are or become Eulerian.
+void warn_of_tension(BodyWarnings& warnings);
+
 /// Poisson's ratio of a law in the undeformed state, from its bulk and shear moduli.
 double poissons_ratio_of(MaterialParameters const& material);
 

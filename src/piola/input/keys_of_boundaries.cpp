@@ -137,7 +137,10 @@ constexpr std::array contact_rows{
     ContactKey{
         {"contact", "law", word, "", any_value,
          "\"kernel\"; surface contact for total-Lagrangian bodies that touch at the start",
-         "what keeps bodies of adaptle apart (other bodies have surface contact); kernel: repulsion by the kernel, "
+         "what keeps bodies of adaptle apart (other bodies have surface contact; those of nodal with conversion = "
+         "\"eulerian\" that collide at more than a fifth of the speed of sound that of all their particles, unless "
+         "this "
+         "is \"surface\"); kernel: repulsion by the kernel, "
          "stiffness from the impedances; linear: a spring with the stiffness of the material, for slow impacts; "
          "published: as in the paper, with a constant that you give; surface: as other formulations have, with "
          "friction, if all stay total-Lagrangian; none: no contact of any body, Eulerian bodies merge",

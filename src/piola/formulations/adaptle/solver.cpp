@@ -27,8 +27,7 @@ void check_axis(Assembly const& assembly, Problems& problems) {
                  "- run it without mpirun");
   for (std::size_t b = 0; b < assembly.formulations.size(); ++b) {
     Body const& body = assembly.particles.bodies[b];
-    auto const description = assembly.formulations[b].words.find("description");
-    bool const turns = description == assembly.formulations[b].words.end() || description->second != "total_lagrangian";
+    bool const turns = !assembly.formulations[b].says("description", "total_lagrangian");
     for (auto id = body.first; turns && id < body.last; ++id) {
       if (assembly.particles.X[at(id)][0] > 1e-3 * body.spacing[0]) continue;
       problems.add({}, fmt::format("adaptle: geometry is \"axisymmetric\", and body \"{}\" has particles on the axis "

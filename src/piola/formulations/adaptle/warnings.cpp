@@ -86,22 +86,6 @@ void warn_of_forces(BodyOptions const& o, Options const& all, int dimension, Bod
     ignore(warnings, {"assumption"}, "the body has three dimensions");
 }
 
-/// Warns of metals without a limit of tension that are Eulerian.
-void warn_of_tension(BodyOptions const& o, BodyWarnings& warnings) {
-  bool unlimited = false;
-  with_solid(warnings.material(), [&](auto const& law) {
-    unlimited = !law.brittle && !law.damages && !(law.spall_pressure < unbounded) && law.front_speed() == 0 &&
-                law.yield_stress({}, 0) < unbounded;
-  });
-  bool const is_eulerian = o.description == Description::eulerian ||
-                           (o.description == Description::adaptive && (o.convert_strain < unbounded || o.convert_when));
-  if (unlimited && is_eulerian)
-    warnings.add(
-        "material.spall_pressure",
-        "nothing limits the tension of a metal in Eulerian particles (where it is fast, hundreds of GPa of it, and "
-        "energies below zero) - give spall_pressure or a damage law");
-}
-
 /// Criteria of damage for a law without it, and damage from which nothing follows.
 void warn_of_damage(BodyOptions const& o, BodyWarnings& warnings) {
   bool damages = false, scatters = false;
@@ -173,7 +157,9 @@ void add_setting_warnings(Assembly const& assembly, std::size_t body, BodyWarnin
   warn_of_description(o, all, warnings);
   warn_of_mixture(all, warnings);
   warn_of_forces(o, all, assembly.particles.dimension, warnings);
-  warn_of_tension(o, warnings);
+  if (o.description == Description::eulerian ||
+      (o.description == Description::adaptive && (o.convert_strain < unbounded || o.convert_when)))
+    warn_of_tension(warnings);
   warn_of_damage(o, warnings);
   warn_of_bending(assembly, body, o, warnings);
 }

@@ -4,6 +4,8 @@
 #include "piola/formulations/coupling/contact_coupling.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -17,21 +19,37 @@ std::vector<contact::RigidSurface> rigid_surfaces(Assembly const& whole) {
   return all;
 }
 
-/// Whether cells of a body under `nodal` become Eulerian: other bodies then feel all of its particles from the start.
-bool may_convert(FormulationSpec const& formulation) {
-  auto const given = formulation.words.find("conversion");
-  return given != formulation.words.end() && given->second == "eulerian";
+/// Closing speed, in units of the bulk speed of sound, above which surfaces of bodies whose material flows on as
+/// Eulerian particles do not last.
+constexpr double fast = 0.2;
+
+/// Mean of the initial velocities of a body [m/s].
+Vec<3> mean_velocity(Assembly const& whole, std::size_t body) {
+  Body const& of = whole.particles.bodies[body];
+  exec::ReproducibleSums<3> sum;
+  for (auto id = of.first; id < of.last && !whole.initial_velocity.empty(); ++id)
+    sum.add(whole.initial_velocity[static_cast<std::size_t>(id)].data());
+  double const share = 1.0 / static_cast<double>(of.last - of.first);
+  return {share * sum.value(0), share * sum.value(1), share * sum.value(2)};
+}
+
+/// Whether two bodies collide so fast that surfaces do not last, and the case does not ask for them.
+bool collide_fast(Assembly const& whole, std::size_t a, std::size_t b) {
+  if (whole.contact.law == ContactRule::Law::surface) return false;
+  double slowest = std::numeric_limits<double>::infinity();
+  for (std::size_t const body : {a, b})
+    with_any_law(whole.materials[body],
+                 [&](auto const& law) { slowest = std::min(slowest, std::sqrt(law.kappa / law.rho0)); });
+  Vec<3> const apart = mean_velocity(whole, a) - mean_velocity(whole, b);
+  double const given = whole.contact.closing_speed, speed = std::isnan(given) ? std::sqrt(dot(apart, apart)) : given;
+  return speed > fast * slowest;
 }
 
 /// Whether the surface of a body may be lost to a contact of its formulation: then surfaces keep it apart only from
 /// bodies that lose theirs in the same way.
 bool may_lose_surface(FormulationSpec const& formulation) {
   auto const info = find_formulation(formulation.name);
-  auto const says = [&](std::string_view key, std::string_view word) {
-    auto const given = formulation.words.find(key);
-    return given != formulation.words.end() && given->second == word;
-  };
-  return info && info->contact && !says("description", "total_lagrangian");
+  return info && info->contact && !formulation.says("description", "total_lagrangian");
 }
 
 /// Whether two bodies can be in surface contact, or a body and a rigid shape, numbered after the bodies.
@@ -45,7 +63,8 @@ bool have_surfaces(Assembly const& whole, std::size_t a, std::size_t b) {
     return info && info->contact;
   };
   auto const& bodies = whole.particles.bodies;
-  if (a != b && (may_convert(whole.formulations[a]) || may_convert(whole.formulations[b]))) return false;
+  auto const converts = [&](std::size_t body) { return whole.formulations[body].says("conversion", "eulerian"); };
+  if (a != b && (converts(a) || converts(b)) && collide_fast(whole, a, b)) return false;
   return has(a) && has(b) &&
          ((keeps(a) && keeps(b)) ||
           (a != b && own(a) && own(b) && find_pair(whole.contact_pairs, bodies[a].name, bodies[b].name) != nullptr));

@@ -8,11 +8,13 @@
 namespace piola {
 namespace {
 
-/// Whether material of a body fails under a formulation without contact of its own.
+/// Whether material of a body fails or becomes Eulerian under a formulation without contact of its own.
 bool fails_without_contact(Assembly const& whole, std::size_t body) {
   auto const info = find_formulation(whole.formulations[body].name);
   auto const& materials = materials_of(whole, body);
-  return info && info->can_be_coupled && !info->contact && std::any_of(materials.begin(), materials.end(), &fails);
+  return info && info->can_be_coupled && !info->contact &&
+         (whole.formulations[body].says("conversion", "eulerian") ||
+          std::any_of(materials.begin(), materials.end(), &fails));
 }
 
 bool has_mirrors(Assembly const& whole, std::size_t body) {

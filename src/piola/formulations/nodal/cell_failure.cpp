@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/cell_failure.hpp"
 #include "piola/domain/communicator.hpp"
+#include "piola/formulations/nodal/failing_cells.hpp"
 #include "piola/formulations/nodal/field_set_up.hpp"
 #include <algorithm>
 #include <cmath>
@@ -8,36 +9,17 @@
 namespace piola::nodal {
 namespace {
 
-/// Volume ratio below which a point breaks an intact cell, and the mean ratio detaches a broken one.
-constexpr double least_ratio = 0.1;
-/// The particle of a cell that is not intact is detached when it is farther from where an intact cell expects it, in
-/// spacings.
-constexpr double tether = 1;
 /// Contact takes the motion of a surface point from the particles within this distance, in spacings.
 constexpr double host_reach = 1.6;
-/// Volume ratio and stretch, sqrt(F:F) and sqrt(F:F) / J, at which an intact cell becomes Eulerian, if it may.
-constexpr double least_volume = 0.3, most_volume = 3, most_stretch = 4.5;
 /// Least volume ratio that an Eulerian cell starts with.
 constexpr double least_converted = 0.1;
 /// Particles within this distance from one of a broken cell may be in contact with those of other pieces, in spacings.
 constexpr double beside_crack = 1.5;
 
-/// Equivalent strain sqrt(2/3 E':E') of the Green-Lagrange strain, eq. (18) of docs/theory/adaptle.md.
-double equivalent_strain(Mat<3> const& F) {
-  Mat<3> const E = 0.5 * (transpose(F) * F - identity<3>());
-  double const mean = trace(E) / 3;
-  double square = 0;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      double const deviator = E(i, j) - (i == j ? mean : 0);
-      square += deviator * deviator;
-    }
-  return std::sqrt(2.0 / 3 * square);
-}
-
 }  // namespace
 
-CellFailure::CellFailure(NodalBody& body, Backend const& backend) : body_(body), backend_(backend), fragments_(body), eulerian_(body) {
+CellFailure::CellFailure(NodalBody& body, Backend const& backend)
+    : body_(body), backend_(backend), fragments_(body), eulerian_(body) {
   if (!body_.reference().refits) return;
   near_crack_.resize(static_cast<std::size_t>(body_.slots()));
   lost_.resize(near_crack_.size());
@@ -60,67 +42,6 @@ bool CellFailure::needs_gradients(Index slot) const {
 /// The condition that a cell gets if its gradients do not serve any more.
 CellCondition CellFailure::next_condition(Index slot) const {
   return condition(slot) == CellCondition::intact ? CellCondition::broken : CellCondition::detached;
-}
-
-/// Local cells that fail now, and particles that come off.
-CellFailure::Changes CellFailure::find() const {
-  Changes found;
-  for (Index i = body_.own().first; i < body_.own().last; ++i) {
-    switch (condition(i)) {
-      case CellCondition::intact:
-        if (value(i, FailureLayout::softening) >= 1 || !(value_at(body_.state().change, i, 1) > least_ratio))
-          found.push_back({i, CellCondition::broken});
-        else if (converts(i))
-          found.push_back({i, CellCondition::broken});
-        else if (near_crack_[static_cast<std::size_t>(i)] != 0)
-          find_detached(i, found);
-        break;
-      case CellCondition::broken:
-        if (!body_.state().has.converts && !(volume_ratio_at(body_.state(), i) > least_ratio)) found.push_back({i, CellCondition::detached});
-        break;
-      case CellCondition::detached: break;
-    }
-  }
-  return found;
-}
-
-/// Whether an intact cell becomes Eulerian by its strain, or because it is so deformed that its gradients do not serve.
-bool CellFailure::converts(Index slot) const {
-  auto const& s = body_.state();
-  if (!s.has.converts) return false;
-  Mat<3> F = identity<3>();
-  int const D = s.dimension;
-  for (int c = 0; c < D * D; ++c) F(c / D, c % D) = body_.mean_of_points(slot, HistoryLayout::F + c);
-  if (D == 2) F(2, 2) = body_.mean_of_points(slot, HistoryLayout::F + 4);
-  double const J = volume_ratio_at(s, slot), stretch = std::sqrt(trace(transpose(F) * F) - (3 - D));
-  return !(J > least_volume && J < most_volume && stretch < most_stretch * std::min(1.0, J)) ||
-         equivalent_strain(F) >= body_.options().convert_strain;
-}
-
-/// Particles of broken cells that are farther than the tether from where the gradient of an intact cell has them.
-void CellFailure::find_detached(Index slot, Changes& found) const {
-  auto const& s = body_.state();
-  auto const& r = body_.reference();
-  int const D = s.dimension;
-  double const h = *std::min_element(body_.body().spacing.begin(), body_.body().spacing.begin() + D);
-  double F[3][3];
-  for (int c = 0; c < D; ++c)
-    for (int J = 0; J < D; ++J) F[c][J] = body_.mean_of_points(slot, HistoryLayout::F + c * D + J);
-  for (auto k = r.begin[static_cast<std::size_t>(slot)]; k < r.begin[static_cast<std::size_t>(slot) + 1]; ++k) {
-    auto const at = static_cast<std::size_t>(k);
-    Index const b = r.neighbour[at], owner = r.owner(b);
-    if (!(r.weight[at] > 0) || r.refits->is_intact(owner)) continue;
-    double square = 0;
-    for (int c = 0; c < D; ++c) {
-      double apart = value_at(s.x, b, c) - value_at(s.x, slot, c);
-      for (int J = 0; J < D; ++J) {
-        auto const axis = static_cast<std::size_t>(J);
-        apart -= F[c][J] * (value_at(s.X, b, J) - value_at(s.X, slot, J)) * body_.body().spacing[axis];
-      }
-      square += apart * apart;
-    }
-    if (!(square < tether * tether * h * h)) found.push_back({owner, CellCondition::detached});
-  }
 }
 
 /// The changes that all ranks have found, in ascending order, the last condition of each slot.
@@ -234,7 +155,7 @@ void CellFailure::begin_step(double dt) const {
 bool CellFailure::end_step(double dt, bool failed) {
   eulerian_.advance(dt);
   eulerian_.kick(0.5 * dt);
-  bool const changed = !failed && body_.reference().refits && propagate(find());
+  bool const changed = !failed && body_.reference().refits && propagate(find_failing(body_, near_crack_));
   if (changed || crushed_) eulerian_.join();
   crushed_ = false;
   find_contact();

@@ -42,9 +42,6 @@ class CellFailure {
   CellCondition condition(Index slot) const;
   bool needs_gradients(Index slot) const;
   CellCondition next_condition(Index slot) const;
-  Changes find() const;
-  bool converts(Index slot) const;
-  void find_detached(Index slot, Changes& found) const;
   Changes over_ranks(Changes found) const;
   void put(Refits::Change const& change) const;
   /// Returns the cells that fail by it.
@@ -63,7 +60,7 @@ class CellFailure {
   std::vector<char> near_crack_;  ///< per slot, of local cells: gradients have changed
   std::vector<char> lost_;        ///< per slot, on all ranks alike
   std::int64_t lost_count_ = 0;
-  bool crushed_ = false;  ///< cells have failed at the start of the present step
+  bool crushed_ = false;        ///< cells have failed at the start of the present step
   std::vector<Index> changed_;  ///< local slots whose gradients have changed since the last step
 };
 

@@ -13,10 +13,10 @@ constexpr int pressure_iterations = 3;
 constexpr double least_damage = 0.999;
 
 /// Values of a point that Eulerian cells have.
-constexpr int shared_values[]{HistoryLayout::S,           HistoryLayout::S + 1,       HistoryLayout::S + 2,
-                              HistoryLayout::S + 3,       HistoryLayout::S + 4,       HistoryLayout::S + 5,
-                              HistoryLayout::plastic_strain, HistoryLayout::temperature, HistoryLayout::damage,
-                              HistoryLayout::plastic_work};
+constexpr int shared_values[]{
+    HistoryLayout::S,      HistoryLayout::S + 1,       HistoryLayout::S + 2,          HistoryLayout::S + 3,
+    HistoryLayout::S + 4,  HistoryLayout::S + 5,       HistoryLayout::plastic_strain, HistoryLayout::temperature,
+    HistoryLayout::damage, HistoryLayout::plastic_work};
 
 double& point_value(BodyState const& body, Index slot, int q, int c) {
   return value_at(body.history, slot, HistoryLayout::point(q, body.dimension) + c);

@@ -44,8 +44,8 @@ struct EulerianStep {
   double viscous_work = 0;  ///< on the cell in the step [J]
 };
 
-/// Advances a cell by a step. Its energy grows by the mean of V sigma : before, with volume and stress of the start, and
-/// V sigma : after, with those of the end, and by the viscous work: what the kinetic energy loses in a Verlet step.
+/// Advances a cell by a step. Its energy grows by the mean of V sigma : before, with volume and stress of the start,
+/// and V sigma : after, with those of the end, and by the viscous work: what the kinetic energy loses in a Verlet step.
 void advance(EulerianCell& cell, MaterialRange const& range, EulerianStep const& step);
 
 /// Speed of pressure waves [m/s].

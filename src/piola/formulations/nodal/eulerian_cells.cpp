@@ -20,7 +20,7 @@ using Kernel = WendlandC2;
 constexpr double alpha = 1, beta = 2;
 /// Largest frequency of a cell, in units of the speed of sound over the spacing.
 constexpr double frequency_factor = 2.2;
-/// The same by viscosity, in units of the rate at which a particle slows down.
+/// Largest frequency by viscosity, in units of the rate at which a particle slows down.
 constexpr double viscous_factor = 1.5;
 /// Least volume ratio of a cell that follows its gradients, as a neighbour.
 constexpr double least_beside = 0.05;
@@ -28,14 +28,43 @@ constexpr double least_beside = 0.05;
 /// Smoothing length, in spacings.
 double smoothing_length(int D) { return D == 3 ? 1.2 : 1.4; }
 
+/// Sums over the neighbours of a particle in the undeformed lattice of a body.
+struct LatticeSumsOfKernel {
+  double gradient = 0;  ///< mean gradient of a field whose gradient is 1
+  double square = 0;    ///< number of neighbours times the sum of (volume times gradient of the kernel)^2 [1/m2]
+};
+LatticeSumsOfKernel sums_in_lattice(std::array<double, 3> const& spacing, int D, double h) {
+  double volume = 1, neighbours = 0;
+  std::array<int, 3> steps{};
+  for (std::size_t c = 0; c < static_cast<std::size_t>(D); ++c) {
+    volume *= spacing[c];
+    steps[c] = static_cast<int>(Kernel::support * h / spacing[c]);
+  }
+  LatticeSumsOfKernel sums;
+  for (int i = -steps[0]; i <= steps[0]; ++i)
+    for (int j = -steps[1]; j <= steps[1]; ++j)
+      for (int k = -steps[2]; k <= steps[2]; ++k) {
+        double const r = std::hypot(i * spacing[0], j * spacing[1], k * spacing[2]);
+        if (!(r > 0 && r < Kernel::support * h)) continue;
+        double const slope = -volume * Kernel::sigma(D) / std::pow(h, D + 1) * Kernel::dw(D, r / h);
+        sums.gradient += slope * r / D;
+        sums.square += slope * slope;
+        neighbours += 1;
+      }
+  sums.square *= neighbours / (sums.gradient * sums.gradient);
+  return sums;
+}
+
 double volume_of_support(int D, double radius) {
   constexpr double pi = 3.14159265358979323846;
   return D == 1 ? 2 * radius : D == 2 ? pi * radius * radius : 4 * pi / 3 * radius * radius * radius;
 }
 
+bool is_local(NodalBody const& body, Index slot) { return slot >= body.own().first && slot < body.own().last; }
+
 Vec<3> vector_of(std::array<double, 3> const& x) { return {x[0], x[1], x[2]}; }
 
-/// `values` per member and component, of which each rank has those of its own particles and zeros.
+/// Replicates values of the members, which are zero on all ranks but that of the particle. Collective.
 void share(std::vector<double>& values) {
   if (comm::is_parallel()) comm::allreduce_or(values);
 }
@@ -47,7 +76,8 @@ void EulerianCells::add(Index slot) { added_.push_back(slot); }
 void EulerianCells::read_positions(Positions& to) const {
   to.resize(static_cast<std::size_t>(body_.slots()));
   exec_host::parallel_for(body_.own(), [&](Index i) { to[static_cast<std::size_t>(i)] = body_.x(i); });
-  if (body_.shared()) DistributedSlots{body_.slots(), body_.particles()}.complete({to.front().data(), 3 * to.size()}, 3);
+  if (body_.shared())
+    DistributedSlots{body_.slots(), body_.particles()}.complete({to.front().data(), 3 * to.size()}, 3);
 }
 
 /// The particles of the cells, and those within the support radius of the box around them.
@@ -74,7 +104,7 @@ void EulerianCells::find_members() {
 
 void EulerianCells::find_neighbours() {
   int const D = body_.state().dimension;
-  double const support = Kernel::support * h_, scale = Kernel::sigma(D) / std::pow(h_, D + 1);
+  double const support = Kernel::support * h_, scale = gradient_scale_ * Kernel::sigma(D) / std::pow(h_, D + 1);
   Positions x(members_.size());
   for (std::size_t k = 0; k < x.size(); ++k) x[k] = x_[static_cast<std::size_t>(members_[k].slot)];
   CellGrid const grid(x, support);
@@ -96,8 +126,8 @@ void EulerianCells::find_neighbours() {
 void EulerianCells::read_volumes() {
   std::vector<double> ratio(members_.size());
   for (std::size_t k = 0; k < ratio.size(); ++k) {
-    if (!is_local(members_[k])) continue;
     Index const slot = members_[k].slot;
+    if (!is_local(body_, slot)) continue;
     ratio[k] = members_[k].converted ? body_.failure_value(slot, FailureLayout::volume_factor)
                                      : std::max(volume_ratio_at(body_.state(), slot), least_beside);
   }
@@ -115,51 +145,52 @@ Mat<3> EulerianCells::relative_motion(Member const& of) const {
   return sum;
 }
 
+/// Calls act(member, step of its cell) for the members that have a cell. `steps` in the order of slots.
+template <class F>
+void EulerianCells::each_cell(std::vector<EulerianStep>& steps, F const& act) {
+  std::vector<std::size_t> of_cell;
+  for (std::size_t k = 0; k < members_.size(); ++k)
+    if (members_[k].converted) of_cell.push_back(k);
+  exec_host::parallel_for_chunks(static_cast<Index>(of_cell.size()), static_cast<Index>(members_.size()), [&](Index k) {
+    auto const n = static_cast<std::size_t>(k);
+    act(members_[of_cell[n]], steps[n]);
+  });
+}
+
+/// Displacements of the members since the positions `before`.
+void EulerianCells::read_moved(Positions const& before) {
+  for (Member& m : members_) {
+    auto const slot = static_cast<std::size_t>(m.slot);
+    m.moved = vector_of(x_[slot]) - vector_of(before[slot]);
+  }
+}
+
 void EulerianCells::advance(double dt) {
   if (slots_.empty()) return;
-  int const D = body_.state().dimension;
-  Positions before = std::move(x_);
+  Positions const before = std::move(x_);
   x_.clear();
   read_positions(x_);
-  auto const read_moved = [&] {
-    for (Member& m : members_) {
-      auto const slot = static_cast<std::size_t>(m.slot);
-      for (std::size_t c = 0; c < 3; ++c) m.moved[static_cast<int>(c)] = x_[slot][c] - before[slot][c];
-    }
-  };
-  // Values per cell, in the order of slots.
-  std::vector<EulerianStep> step(slots_.size());
-  auto const each_cell = [&](auto const& act) {
-    std::vector<std::size_t> of_cell;
-    for (std::size_t k = 0; k < members_.size(); ++k)
-      if (members_[k].converted) of_cell.push_back(k);
-    exec_host::parallel_for_chunks(static_cast<Index>(of_cell.size()), static_cast<Index>(members_.size()),
-                                   [&](Index k) {
-                                     auto const n = static_cast<std::size_t>(k);
-                                     act(members_[of_cell[n]], step[n]);
-                                   });
-  };
-  read_moved();
-  each_cell([&](Member const& m, EulerianStep& s) {
+  std::vector<EulerianStep> steps(slots_.size());
+  read_moved(before);
+  each_cell(steps, [&](Member const& m, EulerianStep& s) {
     s.before = relative_motion(m);
     s.viscous_work = viscous_work(m);
   });
   find_members();
   find_neighbours();
   read_volumes();
-  read_moved();
+  read_moved(before);
   for (std::size_t i = 0; i < v_.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c) v_[i][c] = (x_[i][c] - before[i][c]) / dt;
-  read_velocities();
-  double const most = volume_of_support(D, Kernel::support * h_);
-  each_cell([&](Member const& m, EulerianStep& s) {
+  double const most = volume_of_support(body_.state().dimension, Kernel::support * h_);
+  each_cell(steps, [&](Member const& m, EulerianStep& s) {
     s.dt = dt;
     s.strain = 0.5 * (s.before + relative_motion(m));
     s.J = std::min(m.volume * std::exp(trace(s.strain)), most) / m.V0;
   });
-  each_cell([&](Member& m, EulerianStep const& s) { m.volume = s.J * m.V0; });
+  each_cell(steps, [&](Member& m, EulerianStep const& s) { m.volume = s.J * m.V0; });
   find_compression();
-  each_cell([&](Member& m, EulerianStep& s) {
+  each_cell(steps, [&](Member const& m, EulerianStep& s) {
     s.after = relative_motion(m);
     s.viscous_work += viscous_work(m);
     EulerianCell cell = eulerian_cell_at(body_.state(), m.slot, m.V0);
@@ -174,10 +205,12 @@ void EulerianCells::join() {
   if (V0_.empty()) {
     auto const& spacing = body_.body().spacing;
     spacing_ = *std::min_element(spacing.begin(), spacing.begin() + s.dimension);
-    h_ = smoothing_length(s.dimension) * spacing_;
+    h_ = smoothing_length(s.dimension) * 0.5 * width_of_crack(body_.body(), s.dimension);
+    LatticeSumsOfKernel const sums = sums_in_lattice(spacing, s.dimension, h_);
+    gradient_scale_ = 1 / sums.gradient;
+    square_in_lattice_ = sums.square;
     V0_.resize(static_cast<std::size_t>(body_.slots()));
-    for (Index i = body_.own().first; i < body_.own().last; ++i)
-      V0_[static_cast<std::size_t>(i)] = value_at(s.V, i);
+    for (Index i = body_.own().first; i < body_.own().last; ++i) V0_[static_cast<std::size_t>(i)] = value_at(s.V, i);
     if (body_.shared()) DistributedSlots{body_.slots(), body_.particles()}.complete(V0_, 1);
     v_.resize(V0_.size());
   }
@@ -190,17 +223,13 @@ void EulerianCells::join() {
   find_members();
   find_neighbours();
   read_volumes();
-  read_velocities();
   find_compression();
   find_forces();
 }
 
-void EulerianCells::read_velocities() {
-  for (Member& m : members_) m.v = vector_of(v_[static_cast<std::size_t>(m.slot)]);
-}
-
-/// How much of the motion around the cells is compression.
+/// Velocities of the members in the last step, and how much of the motion around the cells is compression.
 void EulerianCells::find_compression() {
+  for (Member& m : members_) m.v = vector_of(v_[static_cast<std::size_t>(m.slot)]);
   exec_host::parallel_for(static_cast<Index>(members_.size()), [&](Index k) {
     Member& m = members_[static_cast<std::size_t>(k)];
     m.compression = 0;
@@ -256,6 +285,20 @@ double EulerianCells::viscous_work(Member const& of) const {
   return work;
 }
 
+/// Bound on the frequency of the motion that a cell resists, with c its speed of sound [m/s]: that of a lattice, times
+/// the root of how much stiffer the cell is by the present gradients and volumes, each neighbour giving an equal part
+/// of its mass.
+double EulerianCells::largest_frequency(Member const& of, double c) const {
+  double sum = 0;
+  for (Neighbour const& n : of.neighbours) {
+    Member const& b = members_[n.member];
+    sum += b.volume * b.volume * dot(n.gradient, n.gradient) / body_.replicated_mass(b.slot);
+  }
+  sum *= material(of).constants.rho0 * of.V0 * static_cast<double>(of.neighbours.size());
+  double const shorter = std::min(1.0, std::pow(of.volume / of.V0, 1.0 / body_.state().dimension));
+  return frequency_factor * c / spacing_ * std::max(std::sqrt(sum / square_in_lattice_), 1 / shorter);
+}
+
 void EulerianCells::find_forces() {
   std::vector<double> frequency(members_.size());
   auto const n = static_cast<Index>(members_.size());
@@ -264,8 +307,7 @@ void EulerianCells::find_forces() {
     if (!m.converted) return;
     EulerianCell const cell = eulerian_cell_at(body_.state(), m.slot, m.V0);
     m.stress = cell.stress();
-    double const width = spacing_ * std::min(1.0, std::pow(cell.J, 1.0 / body_.state().dimension));
-    frequency[static_cast<std::size_t>(k)] = frequency_factor * sound_speed_of(cell, material(m)) / width;
+    frequency[static_cast<std::size_t>(k)] = largest_frequency(m, sound_speed_of(cell, material(m)));
   });
   exec_host::parallel_for(n, [&](Index k) {
     Member& a = members_[static_cast<std::size_t>(k)];
@@ -288,9 +330,8 @@ void EulerianCells::find_forces() {
 void EulerianCells::kick(double dt) const {
   auto const& s = body_.state();
   for (Member const& m : members_)
-    if (is_local(m))
-      for (int c = 0; c < s.dimension; ++c)
-        value_at(s.v, m.slot, c) += dt * m.force[c] / body_.replicated_mass(m.slot);
+    if (is_local(body_, m.slot))
+      for (int c = 0; c < s.dimension; ++c) value_at(s.v, m.slot, c) += dt * m.force[c] / body_.replicated_mass(m.slot);
 }
 
 }  // namespace piola::nodal

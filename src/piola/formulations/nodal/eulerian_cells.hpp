@@ -42,39 +42,43 @@ class EulerianCells {
   /// A particle of an Eulerian cell, or near one.
   struct Member {
     Index slot;
-    bool converted;         ///< has an Eulerian cell
-    double V0 = 0;          ///< reference volume of its cell [m^D]
-    double volume = 0;      ///< [m^D]
+    bool converted;          ///< has an Eulerian cell
+    double V0 = 0;           ///< reference volume of its cell [m^D]
+    double volume = 0;       ///< [m^D]
     double compression = 0;  ///< share of the artificial viscosity, 0 to 1
-    Vec<3> x{};             ///< [m]
-    Vec<3> moved{};         ///< in the last step [m]
-    Vec<3> v{};             ///< mean velocity of the last step [m/s]
-    Vec<3> force{};         ///< [N]
-    SymMat<3> stress{};     ///< zero without an Eulerian cell [Pa]
+    Vec<3> x{};              ///< [m]
+    Vec<3> moved{};          ///< in the last step [m]
+    Vec<3> v{};              ///< mean velocity of the last step [m/s]
+    Vec<3> force{};          ///< [N]
+    SymMat<3> stress{};      ///< zero without an Eulerian cell [Pa]
     std::vector<Neighbour> neighbours{};
   };
   using Positions = std::vector<std::array<double, 3>>;
 
+  template <class F>
+  void each_cell(std::vector<EulerianStep>& steps, F const& act);
   void read_positions(Positions& to) const;
+  void read_moved(Positions const& before);
   void find_members();
   void find_neighbours();
   void read_volumes();
   void find_forces();
-  bool is_local(Member const& m) const { return m.slot >= body_.own().first && m.slot < body_.own().last; }
   Mat<3> relative_motion(Member const& of) const;
-  void read_velocities();
   void find_compression();
   double viscous_work(Member const& of) const;
+  double largest_frequency(Member const& of, double c) const;
   Vec<3> viscous_force(Member const& a, Neighbour const& to, double& rate) const;
   MaterialRange const& material(Member const& of) const { return body_.material(of.slot); }
 
   NodalBody& body_;
-  double spacing_ = 0, h_ = 0;  ///< of particles, and smoothing length [m]
-  std::vector<Index> slots_;    ///< of the cells, ascending
+  double spacing_ = 0, h_ = 0;    ///< of particles, and smoothing length [m]
+  double gradient_scale_ = 1;     ///< that makes gradients exact in the undeformed lattice
+  double square_in_lattice_ = 1;  ///< number of neighbours times sum of (volume times gradient)^2 there [1/m2]
+  std::vector<Index> slots_;      ///< of the cells, ascending
   std::vector<Index> added_;
-  std::vector<double> V0_;      ///< reference volumes of all slots [m^D]
-  Positions x_;                 ///< of all slots, when forces were last computed [m]
-  Positions v_;                 ///< mean velocities of the last step, of all slots [m/s]
+  std::vector<double> V0_;       ///< reference volumes of all slots [m^D]
+  Positions x_;                  ///< of all slots, when forces were last computed [m]
+  Positions v_;                  ///< mean velocities of the last step, of all slots [m/s]
   std::vector<Member> members_;  ///< by slot
   double frequency2_ = 0;
 };

@@ -62,10 +62,10 @@ enum class CellCondition : char { intact, broken, detached };
 /// Conditions under which a body has fields beyond those of the elastic motion.
 struct FieldNeeds {
   bool viscosity = false;
-  bool solids = false;   ///< some cell has a solid in rate form
+  bool solids = false;    ///< some cell has a solid in rate form
   bool failure = false;   ///< cells may fail
   bool converts = false;  ///< cells that fail become Eulerian
-  bool offset = false;   ///< F starts from given values
+  bool offset = false;    ///< F starts from given values
   bool implicit_pressure = false;
   bool axisymmetric = false;
 };

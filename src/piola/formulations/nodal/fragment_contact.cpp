@@ -36,13 +36,11 @@ void FragmentContact::evaluate() {
   std::vector<std::array<double, 3>> x(slots_.size());
   for (std::size_t k = 0; k < x.size(); ++k) x[k] = body_.x(slots_[k]);
   std::vector<double> frequency(slots_.size());
-  auto const is_eulerian = [&](Index slot) { return s.has.converts && !body_.reference().refits->is_intact(slot); };
   CellGrid const grid(x, touching * h);
   for (std::size_t k = 0; k < x.size(); ++k)
     grid.visit(x[k], [&](Index other) {
       auto const n = static_cast<std::size_t>(other);
-      if (is_eulerian(slots_[k]) || is_eulerian(slots_[n])) return;
-      double const r = n > k ? std::sqrt(square_of_distance(x[k], x[n])) : h;
+      double const r = n > k && !acts_elsewhere(k, n) ? std::sqrt(square_of_distance(x[k], x[n])) : h;
       if (!(r > 0 && r < touching * h) ||
           square_of_distance(body_.X(slots_[k]), body_.X(slots_[n])) < apart * apart * h * h)
         return;
@@ -64,6 +62,12 @@ void FragmentContact::evaluate() {
   frequency2_ = *std::max_element(frequency.begin(), frequency.end());
   forget_parted(touching * h);
   for (Index const slot : slots_) known_[static_cast<std::size_t>(slot)] = 1;
+}
+
+/// Whether one of two particles has an Eulerian cell, whose forces keep them apart.
+bool FragmentContact::acts_elsewhere(std::size_t k, std::size_t n) const {
+  auto const converted = [&](std::size_t at) { return !body_.reference().refits->is_intact(slots_[at]); };
+  return body_.state().has.converts && (converted(k) || converted(n));
 }
 
 /// Distance from which a pair pushes [m], which is at the distance r: it grows while the pair parts.

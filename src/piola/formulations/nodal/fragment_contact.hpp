@@ -9,8 +9,8 @@ namespace piola::nodal {
 /// Contact of the pieces of one body whose cells have failed: linear springs between particles of broken cells and
 /// those beside them, at least three spacings apart in the reference configuration, that come nearer than 0.6 spacings.
 /// Pairs that are nearer when a cell beside them breaks, as in sheared material, push from that distance on, so that
-/// the energy does not jump. Eulerian cells, which see all particles, have none. No friction. Central forces of an energy of positions: momenta and energy are kept.
-/// Theory: docs/theory/nodal.md, "Failure".
+/// the energy does not jump. Eulerian cells, which see all particles, have none. No friction. Central forces of an
+/// energy of positions: momenta and energy are kept. Theory: docs/theory/nodal.md, "Failure".
 class FragmentContact {
  public:
   /// Keeps a reference to the body.
@@ -30,6 +30,7 @@ class FragmentContact {
   double frequency2() const { return frequency2_; }  ///< bound on the square of the largest frequency [1/s2]
 
  private:
+  bool acts_elsewhere(std::size_t k, std::size_t n) const;
   double rest_of(Index a, Index b, double r, double touching);
   void forget_parted(double touching);
 

@@ -64,7 +64,7 @@ void add_failure(NodalBody const& body, Index i, NodalDiagnosticsSum& o) {
   FailureConstants const& law = body.material(i).failure;
   double const V = body.volume(i), failed = body.is_broken(i) ? 1 : 0;
   std::array const numbers{failed, V * body.failure_value(i, FailureLayout::fracture_energy),
-                           law.strength < unbounded ? failed * V / law.band : 0};
+                           law.strength < unbounded ? failed * V / law.band : 0, body.is_eulerian(i) ? 1.0 : 0.0};
   o.failure.add(numbers.data());
 }
 
@@ -115,13 +115,14 @@ Diagnostics finish(NodalDiagnosticsSum o) {
             {"internal_energy", d.strain_energy},
             {"failed_particles", o.failure.value(0)},
             {"fracture_energy", o.failure.value(1)},
-            {"crack_area", o.failure.value(2)}};
+            {"crack_area", o.failure.value(2)},
+            {"eulerian_particles", o.failure.value(3)}};
   return d;
 }
 
 namespace {
 
-constexpr std::array<std::string_view, 20> offered{"Displacement",
+constexpr std::array<std::string_view, 21> offered{"Displacement",
                                                    "Position",
                                                    "Velocity",
                                                    "Momentum",
@@ -140,8 +141,10 @@ constexpr std::array<std::string_view, 20> offered{"Displacement",
                                                    "EquivalentPlasticStrain",
                                                    "Damage",
                                                    "Temperature",
-                                                   "InternalEnergy"};
-constexpr std::size_t of_every_law = 16;  ///< the others belong to solids in rate form
+                                                   "InternalEnergy",
+                                                   "KernelType"};
+/// The others belong to solids in rate form, and the last one to bodies whose cells become Eulerian.
+constexpr std::size_t of_every_law = 16, of_solids = 20;
 
 void add_history(NodalBody const& body, Index i, ParticleOutput& p) {
   p.plastic_strain = body.mean_of_points(i, HistoryLayout::plastic_strain);
@@ -152,8 +155,8 @@ void add_history(NodalBody const& body, Index i, ParticleOutput& p) {
 
 }  // namespace
 
-std::vector<FieldInfo> output_field_names(bool solids) {
-  return field_infos(std::span(offered).first(solids ? offered.size() : of_every_law));
+std::vector<FieldInfo> output_field_names(bool solids, bool converts) {
+  return field_infos(std::span(offered).first(converts ? offered.size() : solids ? of_solids : of_every_law));
 }
 
 namespace {
@@ -179,6 +182,7 @@ void observe_each(NodalBody const& body, int body_number, LazyZeroArray<double> 
     p.cell_pressure = cell_pressure(body, i);
     p.inertia = body.material(i).constants.rho0;
     p.density = p.inertia / p.J;
+    p.kernel_type = body.is_eulerian(i) ? 1 : 0;
     if (is_hypoelastic(body.material(i).material)) add_history(body, i, p);
     f(i, p);
   }

@@ -12,8 +12,9 @@ struct NodalDiagnosticsSum : DiagnosticsSum {
   double least_jacobian = std::numeric_limits<double>::infinity();  ///< at a point of a cell
   double repeated_steps = 0;
   exec::ReproducibleSums<1> plastic_work;  ///< [J]
-  exec::ReproducibleSums<3> failure;       ///< broken cells; energy lost by softening [J]; area of cracks [m2]
-  DiagnosticsSum of_cells;                 ///< of the unsmoothed pressure of cells
+  exec::ReproducibleSums<4>
+      failure;              ///< failed cells; energy lost by softening [J]; area of cracks [m2]; Eulerian cells
+  DiagnosticsSum of_cells;  ///< of the unsmoothed pressure of cells
 };
 
 /// Adds the local particles. Collective if the body is distributed.
@@ -22,8 +23,9 @@ void add_diagnostics(NodalBody const& body, NodalDiagnosticsSum& sum);
 /// Energies, momenta and extrema over all bodies. Collective if they are distributed.
 Diagnostics finish(NodalDiagnosticsSum sum);
 
-/// The fields of nodal bodies for frames and probes; `solids`: with those of solids in rate form.
-std::vector<FieldInfo> output_field_names(bool solids);
+/// The fields of nodal bodies for frames and probes; `solids`: with those of solids in rate form; `converts`: and of
+/// cells that become Eulerian.
+std::vector<FieldInfo> output_field_names(bool solids, bool converts);
 
 /// Gathers one field of one body on root, values[id * components + c]. Collective if the body is distributed. Throws
 /// std::invalid_argument for an unknown field.

@@ -38,10 +38,11 @@ constexpr std::array parameters{
               "share of the largest energy by which total energy may rise and fall with the accelerations, as it does "
               "in Verlet steps: steps are shortened to it; 0: steps are limited by stability alone",
               Interval{0, 1}, no_default, "0.001; pressure = \"implicit\" 0"},
-    Parameter{"convert_strain", "1",
-              "with conversion = \"eulerian\": equivalent strain, eq. 18 of AdapTLE, at which a cell converts that has not "
-              "failed",
-              Interval{0, 1e300}, no_default, "none"}};
+    Parameter{
+        "convert_strain", "1",
+        "with conversion = \"eulerian\": equivalent strain, eq. 18 of AdapTLE, at which a cell converts that has not "
+        "failed",
+        Interval{0, 1e300}, no_default, "none"}};
 
 constexpr std::array<std::string_view, 5> assumption_words{"as_dimension", "plane_strain", "plane_stress",
                                                            "uniaxial_strain", "uniaxial_stress"};
@@ -56,18 +57,20 @@ constexpr std::array choices{
         "implicit: steps are not limited by pressure waves, which is faster for slender bodies above a Poisson's ratio "
         "of 0.49 in slow motion; waves shorter than a step are lost",
         pressure_words},
-    Choice{"conversion",
-           "of cells that have failed, or are too deformed for gradients in the reference configuration; eulerian: "
-           "their material flows on as Eulerian particles, AdapTLE's idea; never: particles of failed cells press, then "
-           "come off",
-           conversion_words}};
+    Choice{
+        "conversion",
+        "of cells that have failed, or are too deformed for gradients in the reference configuration; eulerian: "
+        "their material flows on as Eulerian particles, AdapTLE's idea; never: particles of failed cells press, then "
+        "come off",
+        conversion_words}};
 
 /// Columns of Diagnostics::more (observe.cpp).
 constexpr std::array diagnostics{
     DiagnosticInfo{"cell_jacobian_min", "1"},         DiagnosticInfo{"repeated_steps", "1"},
     DiagnosticInfo{"cell_pressure_oscillation", "1"}, DiagnosticInfo{"plastic_work", "J"},
     DiagnosticInfo{"internal_energy", "J"},           DiagnosticInfo{"failed_particles", "1"},
-    DiagnosticInfo{"fracture_energy", "J"},           DiagnosticInfo{"crack_area", "m2"}};
+    DiagnosticInfo{"fracture_energy", "J"},           DiagnosticInfo{"crack_area", "m2"},
+    DiagnosticInfo{"eulerian_particles", "1"}};
 
 }  // namespace
 
@@ -128,9 +131,10 @@ void check_failure(FormulationSpec const& spec, MaterialParameters const& materi
 /// Rejects what Eulerian cells do not support.
 void check_conversion(FormulationSpec const& spec, bool hyperelastic, Problems& problems) {
   if (hyperelastic)
-    problems.add({},
-                 "formulation: conversion = \"eulerian\" is for solids in rate form, whose stress does not follow from F "
-                 "(allowed: such as elastic, johnson_cook) - take one of them, or leave conversion out");
+    problems.add(
+        {},
+        "formulation: conversion = \"eulerian\" is for solids in rate form, whose stress does not follow from F "
+        "(allowed: such as elastic, johnson_cook) - take one of them, or leave conversion out");
   if (number_of(spec, "fluctuation_viscosity", 0) > 0)
     problems.add({},
                  "formulation: fluctuation_viscosity would hold particles that convert (allowed: 0 with conversion = "

@@ -44,7 +44,9 @@ class SolidCellHistory {
   PIOLA_FN auto rests(Lanes const& condition) const { return condition > least_resting_; }
   PIOLA_FN auto rests(Index i) const { return rests(of_failure(i, FailureLayout::condition)); }
   PIOLA_FN bool rests_at(Index i) const { return of_failure_at(i, FailureLayout::condition) > least_resting_; }
-  PIOLA_FN Lanes of_failure(Index i, int of) const { return in_.template scalar<Lanes>(i, Fields::failure_value(of, D)); }
+  PIOLA_FN Lanes of_failure(Index i, int of) const {
+    return in_.template scalar<Lanes>(i, Fields::failure_value(of, D));
+  }
   PIOLA_FN double of_failure_at(Index i, int of) const {
     return in_.template scalar<double>(i, Fields::failure_value(of, D));
   }

@@ -318,8 +318,8 @@ class SolidCells {
   }
   PIOLA_FN bool owns(Index i) const { return i >= first_ && i < last_; }
 
-  /// The cells at the end of the last step. Eulerian ones, which carry their stress elsewhere, are empty here except for
-  /// output.
+  /// The cells at the end of the last step. Eulerian ones, which carry their stress elsewhere, are empty here except
+  /// for output.
   PIOLA_FN Cell left_at(Index i) const {
     Cell cell = history_(i);
     if (!fails_) return cell;
@@ -336,8 +336,7 @@ class SolidCells {
   /// Stores the state of cells that do not rest.
   PIOLA_FN void keep(Index i, Cell const& cell) const {
     double mine[lane_count];
-    for (int l = 0; l < lane_count; ++l)
-      mine[l] = owns(i + l) && !(fails_ && history_.rests_at(i + l)) ? 1 : 0;
+    for (int l = 0; l < lane_count; ++l) mine[l] = owns(i + l) && !(fails_ && history_.rests_at(i + l)) ? 1 : 0;
     history_.put(i, cell, mine);
   }
 

@@ -104,8 +104,9 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
     return diagnose_from(std::move(all));
   }
   std::vector<FieldInfo> fields() const override {
-    return output_field_names(
-        std::any_of(bodies_.begin(), bodies_.end(), [](auto const& b) { return b->stores_history(); }));
+    auto const any = [&](auto const& of) { return std::any_of(bodies_.begin(), bodies_.end(), of); };
+    return output_field_names(any([](auto const& b) { return b->stores_history(); }),
+                              any([](auto const& b) { return b->state().has.converts; }));
   }
 
   void save(StateWriter& writer) const override;

@@ -81,6 +81,7 @@ void add_setting_warnings(Assembly const& assembly, std::size_t body, BodyWarnin
   int const across = *std::min_element(lattice.begin(), lattice.begin() + assembly.particles.dimension);
   warn_of_failure(assembly, body, warnings);
   warn_of_following_pressures(assembly, body, warnings);
+  if (warnings.has_setting("conversion", "eulerian")) warn_of_tension(warnings);
   double ratio = 0;
   for (MaterialParameters const& material : materials_of(assembly, body))
     ratio = std::max(ratio, poissons_ratio_of(material));

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/formulations/nodal/failing_cells.hpp"
+#include "piola/formulations/nodal/eulerian_cell.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace piola::nodal {
+namespace {
+
+/// Volume ratio below which a point breaks an intact cell, and the mean ratio detaches a broken one.
+constexpr double least_ratio = 0.1;
+/// The particle of a cell that is not intact is detached when it is farther from where an intact cell expects it, in
+/// spacings.
+constexpr double tether = 1;
+/// Volume ratio and norms of F and of its inverse at which an intact cell becomes Eulerian, if it may.
+constexpr double least_volume = 0.3, most_volume = 3, most_norm = 4.5;
+
+CellCondition condition(NodalBody const& body, Index slot) {
+  return static_cast<CellCondition>(static_cast<int>(body.failure_value(slot, FailureLayout::condition)));
+}
+
+/// sqrt(A:A) over the D directions that a body has.
+double norm_in_space(Mat<3> const& A, int D) {
+  double sum = 0;
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) sum += A(i, j) * A(i, j);
+  return std::sqrt(sum);
+}
+
+/// Equivalent strain sqrt(2/3 E':E') of the Green-Lagrange strain, eq. (18) of docs/theory/adaptle.md.
+double equivalent_strain(Mat<3> const& F) {
+  Mat<3> const E = 0.5 * (transpose(F) * F - identity<3>());
+  double const mean = trace(E) / 3;
+  double square = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      double const deviator = E(i, j) - (i == j ? mean : 0);
+      square += deviator * deviator;
+    }
+  return std::sqrt(2.0 / 3 * square);
+}
+
+/// Whether an intact cell becomes Eulerian by its strain, or because it is so deformed that its gradients do not serve.
+bool converts(NodalBody const& body, Index slot) {
+  auto const& s = body.state();
+  if (!s.has.converts) return false;
+  Mat<3> F = identity<3>();
+  int const D = s.dimension;
+  for (int c = 0; c < D * D; ++c) F(c / D, c % D) = body.mean_of_points(slot, HistoryLayout::F + c);
+  if (D == 2) F(2, 2) = body.mean_of_points(slot, HistoryLayout::F + 4);
+  double const J = volume_ratio_at(s, slot), norm = norm_in_space(F, D), inverse_norm = norm_in_space(inverse(F), D);
+  return !(J > least_volume && J < most_volume && norm < most_norm && inverse_norm < most_norm) ||
+         equivalent_strain(F) >= body.options().convert_strain;
+}
+
+/// Particles of broken cells that are farther than the tether from where the gradient of an intact cell has them.
+void find_detached(NodalBody const& body, Index slot, std::vector<Refits::Change>& found) {
+  auto const& s = body.state();
+  auto const& r = body.reference();
+  int const D = s.dimension;
+  double const h = *std::min_element(body.body().spacing.begin(), body.body().spacing.begin() + D);
+  double F[3][3];
+  for (int c = 0; c < D; ++c)
+    for (int J = 0; J < D; ++J) F[c][J] = body.mean_of_points(slot, HistoryLayout::F + c * D + J);
+  for (auto k = r.begin[static_cast<std::size_t>(slot)]; k < r.begin[static_cast<std::size_t>(slot) + 1]; ++k) {
+    auto const at = static_cast<std::size_t>(k);
+    Index const b = r.neighbour[at], owner = r.owner(b);
+    if (!(r.weight[at] > 0) || r.refits->is_intact(owner)) continue;
+    double square = 0;
+    for (int c = 0; c < D; ++c) {
+      double apart = value_at(s.x, b, c) - value_at(s.x, slot, c);
+      for (int J = 0; J < D; ++J) {
+        auto const axis = static_cast<std::size_t>(J);
+        apart -= F[c][J] * (value_at(s.X, b, J) - value_at(s.X, slot, J)) * body.body().spacing[axis];
+      }
+      square += apart * apart;
+    }
+    if (!(square < tether * tether * h * h)) found.push_back({owner, CellCondition::detached});
+  }
+}
+
+}  // namespace
+
+std::vector<Refits::Change> find_failing(NodalBody const& body, std::vector<char> const& near_crack) {
+  std::vector<Refits::Change> found;
+  for (Index i = body.own().first; i < body.own().last; ++i) {
+    switch (condition(body, i)) {
+      case CellCondition::intact:
+        if (body.failure_value(i, FailureLayout::softening) >= 1 ||
+            !(value_at(body.state().change, i, 1) > least_ratio))
+          found.push_back({i, CellCondition::broken});
+        else if (converts(body, i))
+          found.push_back({i, CellCondition::broken});
+        else if (near_crack[static_cast<std::size_t>(i)] != 0)
+          find_detached(body, i, found);
+        break;
+      case CellCondition::broken:
+        if (!body.state().has.converts && !(volume_ratio_at(body.state(), i) > least_ratio))
+          found.push_back({i, CellCondition::detached});
+        break;
+      case CellCondition::detached: break;
+    }
+  }
+  return found;
+}
+
+}  // namespace piola::nodal
