@@ -153,7 +153,7 @@ void CellFailure::begin_step(double dt) const {
 }
 
 bool CellFailure::end_step(double dt, bool failed) {
-  eulerian_.advance(dt);
+  if (!failed) eulerian_.advance(dt);
   eulerian_.kick(0.5 * dt);
   bool const changed = !failed && body_.reference().refits && propagate(find_failing(body_, near_crack_));
   if (changed || crushed_) eulerian_.join();

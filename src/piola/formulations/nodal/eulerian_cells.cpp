@@ -195,6 +195,7 @@ void EulerianCells::advance(double dt) {
     s.viscous_work += viscous_work(m);
     EulerianCell cell = eulerian_cell_at(body_.state(), m.slot, m.V0);
     piola::nodal::advance(cell, material(m), s);
+    if (!std::isfinite(cell.J + cell.pressure + cell.energy)) exec::record(body_.state().failure, m.slot, 1);
     store(cell, body_.state(), m.slot);
   });
   find_forces();

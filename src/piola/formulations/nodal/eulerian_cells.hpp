@@ -21,7 +21,8 @@ class EulerianCells {
   /// Lets the added cells take part from now on, and computes the forces. Also needed when volumes of other cells have
   /// changed. Collective.
   void join();
-  /// Advances the cells by the step dt [s] to the present positions, and computes the forces there. Collective.
+  /// Advances the cells by the step dt [s] to the present positions, and computes the forces there. Records the first
+  /// cell whose state is not a number. Collective.
   void advance(double dt);
   /// Adds the impulse of the forces during dt [s] to the velocities.
   void kick(double dt) const;

@@ -27,7 +27,7 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
         options.shock_viscosity = 0;
         options.viscous = false;
         options.implicit_pressure = false;
-        options.failure = false;
+        options.failure = options.converts = false;
       }
       bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, backend_));
       monitors_.push_back(std::make_unique<StabilityMonitor>(*bodies_.back(), backend_));
