@@ -286,18 +286,20 @@ double EulerianCells::viscous_work(Member const& of) const {
   return work;
 }
 
-/// Bound on the frequency of the motion that a cell resists, with c its speed of sound [m/s]: that of a lattice, times
-/// the root of how much stiffer the cell is by the present gradients and volumes, each neighbour giving an equal part
-/// of its mass.
-double EulerianCells::largest_frequency(Member const& of, double c) const {
+/// Bound on the frequency of the motion that a cell resists: that of a lattice as dense as the cell, and in tension
+/// that of the undeformed lattice times the root of how much stiffer the cell is by the present gradients and volumes,
+/// each neighbour giving an equal part of its mass. Released material is softer than its speed of sound says.
+double EulerianCells::largest_frequency(Member const& of, EulerianCell const& cell) const {
+  double const in_lattice = frequency_factor * sound_speed_of(cell, material(of)) / spacing_,
+               dense = in_lattice / std::min(1.0, std::pow(cell.J, 1.0 / body_.state().dimension));
+  if (!(cell.pressure < 0)) return dense;
   double sum = 0;
   for (Neighbour const& n : of.neighbours) {
     Member const& b = members_[n.member];
     sum += b.volume * b.volume * dot(n.gradient, n.gradient) / body_.replicated_mass(b.slot);
   }
   sum *= material(of).constants.rho0 * of.V0 * static_cast<double>(of.neighbours.size());
-  double const shorter = std::min(1.0, std::pow(of.volume / of.V0, 1.0 / body_.state().dimension));
-  return frequency_factor * c / spacing_ * std::max(std::sqrt(sum / square_in_lattice_), 1 / shorter);
+  return std::max(dense, in_lattice * std::sqrt(sum / square_in_lattice_));
 }
 
 void EulerianCells::find_forces() {
@@ -308,7 +310,7 @@ void EulerianCells::find_forces() {
     if (!m.converted) return;
     EulerianCell const cell = eulerian_cell_at(body_.state(), m.slot, m.V0);
     m.stress = cell.stress();
-    frequency[static_cast<std::size_t>(k)] = largest_frequency(m, sound_speed_of(cell, material(m)));
+    frequency[static_cast<std::size_t>(k)] = largest_frequency(m, cell);
   });
   exec_host::parallel_for(n, [&](Index k) {
     Member& a = members_[static_cast<std::size_t>(k)];

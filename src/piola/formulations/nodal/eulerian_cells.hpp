@@ -67,7 +67,7 @@ class EulerianCells {
   Mat<3> relative_motion(Member const& of) const;
   void find_compression();
   double viscous_work(Member const& of) const;
-  double largest_frequency(Member const& of, double c) const;
+  double largest_frequency(Member const& of, EulerianCell const& cell) const;
   Vec<3> viscous_force(Member const& a, Neighbour const& to, double& rate) const;
   MaterialRange const& material(Member const& of) const { return body_.material(of.slot); }
 
