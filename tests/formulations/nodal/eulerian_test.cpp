@@ -39,13 +39,6 @@ Assembly stirred_block(int dimension, double strain) {
   return a;
 }
 
-double column(Formulation const& f, std::string_view wanted) {
-  for (auto const& [name, value] : f.diagnose().more)
-    if (name == wanted) return value;
-  ADD_FAILURE() << "no column is named " << wanted;
-  return 0;
-}
-
 /// Advances to `end` [s] with steps of `share` of the stable one. Returns the number of steps.
 int advance_to(Formulation& f, double end, double share = 1) {
   int steps = 0;
@@ -143,23 +136,7 @@ TEST(NodalEulerian, PressesAsCellsThatFollowGradients) {
 
 TEST(NodalEulerian, HasTheSameBitsOnThreadsAndFromCheckpoints) {
   Assembly const a = stirred_block(2, 0.01);
-  auto const run = [&](std::vector<double> const& stops) {
-    auto f = make_formulation(a);
-    double time = 0;
-    for (double const stop : stops) {
-      SavedState const kept = saved(*f);
-      f = make_formulation(a);
-      SavedState copy = kept;
-      f->load(copy);
-      while (time < stop) {
-        double const dt = f->stable_time_step();
-        f->step(time, dt);
-        time += dt;
-      }
-    }
-    EXPECT_GT(column(*f, "failed_particles"), 10);
-    return saved(*f).values;
-  };
+  auto const run = [&](std::vector<double> const& stops) { return state_after(a, stops, 10); };
   auto const alone = [&] {
     Threads const one(1);
     return run({3e-6});

@@ -49,13 +49,6 @@ Assembly pulled_bar(int dimension, double jitter = 0) {
   return a;
 }
 
-double column(Formulation const& f, std::string_view wanted) {
-  for (auto const& [name, value] : f.diagnose().more)
-    if (name == wanted) return value;
-  ADD_FAILURE() << "no column is named " << wanted;
-  return 0;
-}
-
 /// Advances to `end` [s] from `time` [s].
 void advance_to(Formulation& f, double time, double end) {
   while (time < end) {
@@ -89,24 +82,7 @@ TEST(NodalFailure, CrackTakesTheFractureEnergy) {
 
 TEST(NodalFailure, HasTheSameBitsOnThreadsAndFromCheckpoints) {
   Assembly const a = pulled_bar(2, 0.2);
-  auto const run = [&](std::vector<double> const& stops) {
-    auto f = make_formulation(a);
-    double time = 0;
-    int steps = 0;
-    for (double const stop : stops) {
-      SavedState const kept = saved(*f);
-      f = make_formulation(a);
-      SavedState copy = kept;
-      f->load(copy);
-      for (; time < stop; ++steps) {
-        double const dt = f->stable_time_step();
-        f->step(time, dt);
-        time += dt;
-      }
-    }
-    EXPECT_GT(column(*f, "failed_particles"), 0);
-    return saved(*f).values;
-  };
+  auto const run = [&](std::vector<double> const& stops) { return state_after(a, stops, 0); };
   auto const alone = [&] {
     Threads const one(1);
     return run({400e-6});

@@ -93,4 +93,31 @@ inline double largest(std::vector<Point> const& points) {
   return most;
 }
 
+/// The last value of a column that the formulation adds to history.csv.
+inline double column(Formulation const& f, std::string_view wanted) {
+  for (auto const& [name, value] : f.diagnose().more)
+    if (name == wanted) return value;
+  ADD_FAILURE() << "no column is named " << wanted;
+  return 0;
+}
+
+/// State after steps to the last of `stops` [s], resumed by a new run from a checkpoint at each earlier one. Expects
+/// that more than `least` cells have failed.
+inline auto state_after(Assembly const& a, std::vector<double> const& stops, double least) {
+  auto f = make_formulation(a);
+  double time = 0;
+  for (double const stop : stops) {
+    SavedState kept = saved(*f);
+    f = make_formulation(a);
+    f->load(kept);
+    while (time < stop) {
+      double const dt = f->stable_time_step();
+      f->step(time, dt);
+      time += dt;
+    }
+  }
+  EXPECT_GT(column(*f, "failed_particles"), least);
+  return saved(*f).values;
+}
+
 }  // namespace piola::testing

@@ -14,14 +14,14 @@ namespace {
 /// Coefficient of the viscous pressure of shocks where heat changes the pressure.
 constexpr double default_shock = 2;
 
+}  // namespace
+
 double mean_spacing(Body const& body, int dimension) {
   double mean = 1;
   for (std::size_t c = 0; c < static_cast<std::size_t>(dimension); ++c)
     mean *= std::pow(body.spacing[c], 1.0 / dimension);
   return mean;
 }
-
-}  // namespace
 
 double width_of_crack(Body const& body, int dimension) { return 2 * mean_spacing(body, dimension); }
 

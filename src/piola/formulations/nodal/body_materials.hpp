@@ -8,6 +8,9 @@
 
 namespace piola::nodal {
 
+/// Geometric mean of the spacings of a body [m].
+double mean_spacing(Body const& body, int dimension);
+
 /// Width of the band of cells that a crack breaks: two rows, because an opening is between two particles, whose cells
 /// both see it [m].
 double width_of_crack(Body const& body, int dimension);

@@ -7,6 +7,7 @@
 #include "piola/formulations/common/pair_viscosity.hpp"
 #include "piola/formulations/nodal/local_fits.hpp"
 #include "piola/kernels/wendland_c2.hpp"
+#include "piola/math/array_conversion.hpp"
 #include "piola/mechanics/contact/bounding_box.hpp"
 #include "piola/neighbours/cell_grid.hpp"
 #include <algorithm>
@@ -61,8 +62,6 @@ double volume_of_support(int D, double radius) {
 }
 
 bool is_local(NodalBody const& body, Index slot) { return slot >= body.own().first && slot < body.own().last; }
-
-Vec<3> vector_of(std::array<double, 3> const& x) { return {x[0], x[1], x[2]}; }
 
 /// Replicates values of the members, which are zero on all ranks but that of the particle. Collective.
 void share(std::vector<double>& values) {
@@ -206,7 +205,7 @@ void EulerianCells::join() {
   if (V0_.empty()) {
     auto const& spacing = body_.body().spacing;
     spacing_ = *std::min_element(spacing.begin(), spacing.begin() + s.dimension);
-    h_ = smoothing_length(s.dimension) * 0.5 * width_of_crack(body_.body(), s.dimension);
+    h_ = smoothing_length(s.dimension) * mean_spacing(body_.body(), s.dimension);
     LatticeSumsOfKernel const sums = sums_in_lattice(spacing, s.dimension, h_);
     gradient_scale_ = 1 / sums.gradient;
     square_in_lattice_ = sums.square;
