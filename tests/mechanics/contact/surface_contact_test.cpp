@@ -73,6 +73,48 @@ TEST_P(InDimensions, BlocksThatTouchAreNotPushed) {
   EXPECT_LT(system.totals().deepest, 1e-12);
 }
 
+/// Where a point is lost, the planes of the others are blended anew: points in contact push on from their depth, so
+/// that the energy does not rise, in forces that are still its derivative, and from a checkpoint as well.
+TEST_P(InDimensions, LostPointsAddNoEnergy) {
+  int const D = GetParam();
+  Blocks const blocks(D, 0.15);
+  std::size_t const up = D == 3 ? 2 : 1;
+  std::vector<Vec<3>> x = places(blocks.system(), blocks.set), deeper;
+  distort(x, D, 0.4);
+  double risen = 0, fresh = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    std::vector<char> lost(x.size());
+    lost[k] = 1;
+    SurfaceContactSystem system = blocks.system(), late = blocks.system(), resumed = blocks.system();
+    system.evaluate(x, 1e-3);
+    double const before = system.totals().energy;
+    system.drop(lost);
+    system.evaluate(x, 1e-3);
+    late.drop(lost);
+    late.evaluate(x, 1e-3);
+    risen = std::max(risen, system.totals().energy / before - 1);
+    fresh = std::max(fresh, late.totals().energy / before - 1);
+    deeper = x;
+    double work = 0;
+    for (std::size_t n = 0; n < x.size(); ++n)
+      if (system.ids()[n] >= blocks.set.bodies[1].first) {
+        deeper[n][static_cast<int>(up)] -= 1e-6;
+        work += 1e-6 * system.forces()[n][static_cast<int>(up)];
+      }
+    double const there = system.totals().energy;
+    std::vector<double> const state = system.state(), depths = system.depths();
+    system.evaluate(deeper, 1e-3);
+    EXPECT_NEAR(system.totals().energy - there, work, 1e-3 * work + 1e-12 * there) << k;
+    resumed.drop(lost);
+    resumed.restore(x, state);
+    resumed.load_depths(depths);
+    resumed.evaluate(deeper, 1e-3);
+    EXPECT_EQ(resumed.totals().energy, system.totals().energy) << k;
+  }
+  EXPECT_LT(risen, 1e-12);
+  EXPECT_GT(fresh, 1e-3);  // what it is without the depths
+}
+
 TEST_P(InDimensions, FlatFacesHaveThePressureOfTheLayer) {
   int const D = GetParam();
   double const depth = 0.05;

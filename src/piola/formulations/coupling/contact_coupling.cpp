@@ -41,6 +41,7 @@ void ContactCoupling::start(Formulations const& formulations) {
     motion_.start(system_);
   } else {
     system_.restore(x, loaded_.surfaces);
+    system_.load_depths(loaded_.depths);
     colours_.load(loaded_.colours);
     loaded_ = {};
   }

@@ -86,7 +86,7 @@ class ContactCoupling {
   SparseVectors forces_;  ///< of contact and ties [N]
   /// From a checkpoint, until the state of the bodies is loaded.
   struct Loaded {
-    std::vector<double> surfaces, colours;
+    std::vector<double> surfaces, depths, colours;
   } loaded_;
   double work_ = 0, friction_work_ = 0, chatter_loss_ = 0, last_dt_ = 0, closing_ = 0;
 };

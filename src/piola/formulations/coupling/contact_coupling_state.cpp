@@ -7,6 +7,7 @@ namespace piola {
 void ContactCoupling::save(StateWriter& writer) const {
   writer.put_sized("contact_count", "contact_state", system_.state());
   if (!lost_.pairs().empty()) writer.put_sized("contact_colour_count", "contact_colours", colours_.state());
+  if (lost_.any()) writer.put_sized("contact_depth_count", "contact_depths", system_.depths());
   std::vector<double> rigid{work_, last_dt_, friction_work_, chatter_loss_};
   for (std::size_t r = 0; r < shapes_.size(); ++r)
     for (Vec<3> const& a : {system_.rigid(r).centre, system_.rigid(r).velocity}) contact::put(rigid, a);
@@ -33,6 +34,7 @@ void ContactCoupling::load(StateReader& reader) {
   }
   loaded_.surfaces = reader.get_sized("contact_count", "contact_state");
   if (!lost_.pairs().empty()) loaded_.colours = reader.get_sized("contact_colour_count", "contact_colours");
+  if (lost_.any()) loaded_.depths = reader.get_sized("contact_depth_count", "contact_depths");
   std::vector<double> actions = actions_.state();
   reader.get("contact_actions", actions);
   actions_.restore(actions);

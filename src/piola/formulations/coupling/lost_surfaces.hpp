@@ -4,6 +4,7 @@
 #include "piola/formulations/formulation.hpp"
 #include "piola/mechanics/contact/colour_contact.hpp"
 #include "piola/mechanics/contact/contact_definition.hpp"
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -22,6 +23,10 @@ class LostSurfaces {
   /// Pairs of bodies in surface contact of which one may lose its surface, for colour contact; not with mirror planes,
   /// whose images have no colour, nor of rings.
   Pairs const& pairs() const { return pairs_; }
+  /// Whether some body may lose its surface.
+  bool any() const {
+    return std::any_of(bodies_.begin(), bodies_.end(), [](BodyCount const& body) { return body.loses; });
+  }
   /// Whether a body may lose its surface and is in contact with another body or a rigid shape.
   bool may_lose(std::size_t body) const { return bodies_[body].loses; }
   /// Counts the marked particles, by index. ids: of particles, by index; -1: an image.

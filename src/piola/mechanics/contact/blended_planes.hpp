@@ -49,6 +49,12 @@ inline Layer layer(double gap, double stiffness, double length) {
   return {stiffness * square * (0.5 + 0.25 * over), stiffness * gap * (1 + over)};
 }
 
+/// Inverse of layer().energy: the gap [m].
+inline double gap_of_layer(double energy, double stiffness, double length) {
+  double const square = length * length;
+  return -std::sqrt(square * (std::sqrt(1 + 4 * energy / (stiffness * square)) - 1));
+}
+
 /// theta: 1 if the planes are opposite, 0 beyond the rim of a face. tau2: squared distance of their centroid along the
 /// face [m2]; slope by tau2 [1/m2].
 struct Fade {

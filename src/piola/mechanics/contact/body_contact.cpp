@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 namespace piola::contact {
 namespace {
@@ -22,6 +23,11 @@ bool can_touch(ContactModel const& model, Index target, Index source) {
   if (a.body != b.body) return true;
   return dot(points.plane(target).n, points.plane(source).n) < largest_cosine &&
          !model.definition.are_neighbours(a.body, a.host, b.host);
+}
+
+/// Share of a full face in front of a point, 0 to 1.
+double seen_by(PairRule const& rule, Gap const& gap) {
+  return fade(gap.tau2(), rule.fade_from, rule.fade_to).value * coverage(gap.weight).value;
 }
 
 }  // namespace
@@ -95,8 +101,43 @@ void BodyContact::find_gaps(ContactModel const& model) {
   });
 }
 
+void BodyContact::carry_energies(ContactModel const& model) {
+  if (ranges_.empty()) return;
+  find_gaps(model);
+  carries_ = true;
+  carried_.clear();
+  for (std::size_t k = 0; k < ranges_.size(); ++k)
+    if (gaps_[k].seen())
+      carried_[{static_cast<Index>(ranges_[k].body), ranges_[k].target}] = energy_per_area(model, ranges_[k], gaps_[k]);
+}
+
+/// Points push on with the energy of before the planes have changed, or less; points that saw none push from their
+/// depth.
+void BodyContact::set_offsets(ContactModel const& model) {
+  if (!std::exchange(carries_, false)) return;
+  for (std::size_t k = 0; k < ranges_.size(); ++k) {
+    if (!gaps_[k].seen()) continue;
+    Range const& range = ranges_[k];
+    PairRule const& rule = model.definition.rule(model.points[range.target].body, range.body);
+    auto const body = static_cast<Index>(range.body);
+    auto const before = carried_.find({body, range.target});
+    double const energy = before == carried_.end() ? 0 : before->second, seen = seen_by(rule, gaps_[k]);
+    if (seen > 0)
+      offsets_.set(body, range.target, gaps_[k].gap, gap_of_layer(energy / seen, rule.stiffness, rule.length));
+  }
+  carried_.clear();
+}
+
+/// Energy stored per area of a target [J/m2].
+double BodyContact::energy_per_area(ContactModel const& model, Range const& range, Gap const& gap) const {
+  PairRule const& rule = model.definition.rule(model.points[range.target].body, range.body);
+  double const pushing = offsets_.pushing_now(static_cast<Index>(range.body), range.target, gap.gap);
+  return layer(pushing, rule.stiffness, rule.length).energy * seen_by(rule, gap);
+}
+
 void BodyContact::evaluate(ContactModel& model, ContactState& state) {
   find_gaps(model);
+  set_offsets(model);
   for (std::size_t k = 0; k < ranges_.size(); ++k)
     if (gaps_[k].seen()) evaluate(ranges_[k], gaps_[k], model, state);
 }
@@ -107,7 +148,7 @@ void BodyContact::evaluate(Range const& range, Gap const& gap, ContactModel& mod
   ContactForces& forces = state.forces;
   SurfacePoints::Point const& target = points[range.target];
   PairRule const& rule = model.definition.rule(target.body, range.body);
-  double const dp = 2 * rule.length;
+  double const dp = 2 * rule.length, pushing = offsets_.pushing(static_cast<Index>(range.body), range.target, gap.gap);
   if (!(gap.gap < near * dp)) return;
   Fade const theta = fade(gap.tau2(), rule.fade_from, rule.fade_to);
   double const seen = theta.value * coverage(gap.weight).value;
@@ -120,7 +161,7 @@ void BodyContact::evaluate(Range const& range, Gap const& gap, ContactModel& mod
   if (!(gap.gap < 0)) return;
   Plane const& plane = points.plane(range.target);
   state.passages.record(range.target, range.body, -gap.gap / dp, plane.n);
-  Layer const psi = layer(gap.gap, rule.stiffness, rule.length);
+  Layer const psi = layer(pushing, rule.stiffness, rule.length);
   forces.add_contact(target.area * psi.energy * seen);
   Index const* const sources = &sources_[range.first];
   PointLoad const own = contact_loads(
@@ -138,13 +179,9 @@ void BodyContact::evaluate(Range const& range, Gap const& gap, ContactModel& mod
 }
 
 double BodyContact::energy_of(ContactModel const& model, Index point, std::size_t body) const {
-  SurfacePoints::Point const& target = model.points[point];
-  for (std::size_t k = 0; k < ranges_.size(); ++k) {
-    if (ranges_[k].target != point || ranges_[k].body != body || !gaps_[k].seen()) continue;
-    PairRule const& rule = model.definition.rule(target.body, body);
-    return target.area * layer(gaps_[k].gap, rule.stiffness, rule.length).energy *
-           fade(gaps_[k].tau2(), rule.fade_from, rule.fade_to).value * coverage(gaps_[k].weight).value;
-  }
+  for (std::size_t k = 0; k < ranges_.size(); ++k)
+    if (ranges_[k].target == point && ranges_[k].body == body && gaps_[k].seen())
+      return model.points[point].area * energy_per_area(model, ranges_[k], gaps_[k]);
   return 0;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/mechanics/contact/contact_model.hpp"
 #include "piola/mechanics/contact/contact_state.hpp"
+#include "piola/mechanics/contact/gap_offsets.hpp"
 #include <vector>
 
 namespace piola::contact {
@@ -15,6 +16,12 @@ class BodyContact {
   /// Marks the points in the lists.
   void mark(std::vector<char>& points) const;
   void evaluate(ContactModel& model, ContactState& state);
+  /// Before planes are removed from the lists, at the places of the next evaluation: keeps the energies of points for
+  /// that evaluation, so that none rises where the blend of the other planes is another one.
+  void carry_energies(ContactModel const& model);
+  /// Depths of such points for a checkpoint.
+  std::vector<double> depths() const { return offsets_.state(); }
+  void load_depths(std::vector<double> const& depths) { offsets_.load(depths); }
   /// Energy stored by the contact of a point with a body [J].
   double energy_of(ContactModel const& model, Index point, std::size_t body) const;
   /// The step in which the fastest pair approaches by a tenth of a spacing [s]. v [m/s].
@@ -31,6 +38,8 @@ class BodyContact {
   };
   void search_body(ContactModel const& model, std::size_t b, std::vector<Index> const& of_body, double skin);
   void find_gaps(ContactModel const& model);
+  void set_offsets(ContactModel const& model);
+  double energy_per_area(ContactModel const& model, Range const& range, Gap const& gap) const;
   void evaluate(Range const& range, Gap const& gap, ContactModel& model, ContactState& state);
   double largest_inverse_mass(SurfacePoints const& points, Range const& range) const;
 
@@ -38,6 +47,9 @@ class BodyContact {
   std::vector<Index> sources_;
   std::vector<Gap> gaps_;        ///< by range
   std::vector<double> weights_;  ///< of sources
+  GapOffsets offsets_;           ///< by body and target
+  PairValues carried_;           ///< energy per area, by body and target, see carry_energies() [J/m2]
+  bool carries_ = false;
 };
 
 }  // namespace piola::contact

@@ -13,17 +13,11 @@ void LateTargets::add(std::vector<char> const& marked) {
 
 double LateTargets::pushing_gap(Index contact, Index k, double gap) {
   PIOLA_EXPECTS(has(k));
-  double const depth = std::max(-gap, 0.0);
   if (known_[static_cast<std::size_t>(k)] == since_last_evaluation) {
-    if (depth > 0) depth_[{contact, k}] = depth;
-    return gap + depth;
+    depths_.set(contact, k, gap, 0);
+    return std::max(gap, 0.0);
   }
-  auto const from = depth_.find({contact, k});
-  if (from == depth_.end()) return gap;
-  from->second = std::min(from->second, depth);
-  double const pushing = gap + from->second;
-  if (!(from->second > 0)) depth_.erase(from);
-  return pushing;
+  return depths_.pushing(contact, k, gap);
 }
 
 void LateTargets::settle() {
@@ -32,7 +26,7 @@ void LateTargets::settle() {
 }
 
 void LateTargets::load(std::vector<double> const& state) {
-  depth_ = pair_values_of(state);
+  depths_.load(state);
   settle();
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "piola/mechanics/contact/state_vector.hpp"
+#include "piola/mechanics/contact/gap_offsets.hpp"
 #include <cstddef>
 #include <vector>
 
@@ -19,7 +19,7 @@ class LateTargets {
   /// Ends an evaluation.
   void settle();
   /// The targets that push from a depth: contact, index and depth [m] of each, for a checkpoint.
-  std::vector<double> state() const { return numbers_of(depth_); }
+  std::vector<double> state() const { return depths_.state(); }
   /// Takes the state of a checkpoint, after all targets of then were added.
   void load(std::vector<double> const& state);
 
@@ -27,7 +27,7 @@ class LateTargets {
   enum Known : char { no, since_last_evaluation, yes };
 
   std::vector<char> known_;  ///< by index
-  PairValues depth_;         ///< by contact and index [m]
+  GapOffsets depths_;        ///< by contact and index
 };
 
 }  // namespace piola::contact

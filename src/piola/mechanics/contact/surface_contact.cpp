@@ -25,6 +25,7 @@ void SurfaceContactSystem::drop(std::vector<char> const& lost) {
   for (Index k = 0; k < model_.points.count(); ++k)
     if (lost[at(model_.points.particle(k))] != 0) model_.definition.remove(k);
   skin_.invalidate();
+  drops_ = true;
 }
 
 double SurfaceContactSystem::stored_at(std::size_t body, std::size_t point, std::size_t other) const {
@@ -62,6 +63,10 @@ void SurfaceContactSystem::start(std::vector<Vec<3>> const& x) {
 void SurfaceContactSystem::evaluate(std::vector<Vec<3>> const& x, double dt) {
   PIOLA_EXPECTS(x.size() >= ids().size());
   model_.points.advance();
+  if (std::exchange(drops_, false)) {
+    model_.points.place(x);
+    bodies_.carry_energies(model_);
+  }
   if (!skin_.is_valid(model_, x)) make_lists(x);
   model_.dt = dt;
   state_.friction.begin();
@@ -104,6 +109,7 @@ void SurfaceContactSystem::restore(std::vector<Vec<3>> const& x, std::vector<dou
   state_.forces.clear();
   state_.forces.load(from);
   state_.friction.load(from);
+  drops_ = false;
 }
 
 std::vector<SurfaceContactSystem::ParticleContactState> SurfaceContactSystem::at_particles() const {

@@ -49,6 +49,9 @@ class SurfaceContactSystem {
   /// State after the last evaluation, for a checkpoint, without the poses of rigid shapes.
   std::vector<double> state() const;
   void restore(std::vector<Vec<3>> const& x, std::vector<double> const& state);
+  /// Depths from which points push beside those that were dropped, for a checkpoint; not in state().
+  std::vector<double> depths() const { return bodies_.depths(); }
+  void load_depths(std::vector<double> const& depths) { bodies_.load_depths(depths); }
   std::vector<Vec<3>> const& forces() const { return state_.forces.forces(); }
   /// Indices of ids() that have a force, ascending.
   std::vector<Index> const& loaded_indices() const { return state_.forces.loaded_indices(); }
@@ -96,6 +99,7 @@ class SurfaceContactSystem {
   RigidContact rigids_;
   ShapePointContact shape_points_;
   ContactState state_;
+  bool drops_ = false;  ///< points were removed since the last evaluation
 };
 
 }  // namespace piola::contact
