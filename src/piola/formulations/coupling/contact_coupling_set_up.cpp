@@ -45,13 +45,6 @@ bool collide_fast(Assembly const& whole, std::size_t a, std::size_t b) {
   return speed > fast * slowest;
 }
 
-/// Whether the surface of a body may be lost to a contact of its formulation: then surfaces keep it apart only from
-/// bodies that lose theirs in the same way.
-bool may_lose_surface(FormulationSpec const& formulation) {
-  auto const info = find_formulation(formulation.name);
-  return info && info->contact && !formulation.says("description", "total_lagrangian");
-}
-
 /// Whether two bodies can be in surface contact, or a body and a rigid shape, numbered after the bodies.
 bool have_surfaces(Assembly const& whole, std::size_t a, std::size_t b) {
   std::size_t const n = whole.particles.bodies.size();

@@ -23,11 +23,18 @@ bool has_mirrors(Assembly const& whole, std::size_t body) {
 
 }  // namespace
 
+bool may_lose_surface(FormulationSpec const& formulation) {
+  auto const info = find_formulation(formulation.name);
+  return info && info->contact && !formulation.says("description", "total_lagrangian");
+}
+
 LostSurfaces::LostSurfaces(Assembly const& whole, contact::PairSettings const& settings) {
   auto const& bodies = whole.particles.bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b)
     bodies_.push_back({bodies[b].name, bodies[b].first, bodies[b].last, false, false, false});
   if (whole.materials.size() == bodies.size()) find_pairs(whole, settings);
+  any_ = std::any_of(whole.formulations.begin(), whole.formulations.end(), &may_lose_surface) ||
+         std::any_of(bodies_.begin(), bodies_.end(), [](BodyCount const& body) { return body.loses; });
 }
 
 void LostSurfaces::find_pairs(Assembly const& whole, contact::PairSettings const& settings) {

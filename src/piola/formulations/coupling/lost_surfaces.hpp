@@ -4,12 +4,15 @@
 #include "piola/formulations/formulation.hpp"
 #include "piola/mechanics/contact/colour_contact.hpp"
 #include "piola/mechanics/contact/contact_definition.hpp"
-#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace piola {
+
+/// Whether the surface of a body may be lost to a contact of its formulation: then surfaces keep it apart only from
+/// bodies that lose theirs in the same way.
+bool may_lose_surface(FormulationSpec const& formulation);
 
 /// Bodies whose particles may lose their surface points because material fails, as under `nodal`, and the number of
 /// particles that have. Colour contact keeps such particles apart from other bodies; report() counts those that nothing
@@ -23,10 +26,8 @@ class LostSurfaces {
   /// Pairs of bodies in surface contact of which one may lose its surface, for colour contact; not with mirror planes,
   /// whose images have no colour, nor of rings.
   Pairs const& pairs() const { return pairs_; }
-  /// Whether some body may lose its surface.
-  bool any() const {
-    return std::any_of(bodies_.begin(), bodies_.end(), [](BodyCount const& body) { return body.loses; });
-  }
+  /// Whether some body may lose surface points, to whatever contact.
+  bool any() const { return any_; }
   /// Whether a body may lose its surface and is in contact with another body or a rigid shape.
   bool may_lose(std::size_t body) const { return bodies_[body].loses; }
   /// Counts the marked particles, by index. ids: of particles, by index; -1: an image.
@@ -45,6 +46,7 @@ class LostSurfaces {
 
   std::vector<BodyCount> bodies_;
   Pairs pairs_;
+  bool any_ = false;
 };
 
 }  // namespace piola

@@ -10,7 +10,7 @@
 #include "piola/formulations/nodal/masses.hpp"
 #include "piola/formulations/nodal/refits.hpp"
 #include "piola/formulations/nodal/scaled_body.hpp"
-#include "piola/neighbours/line_of_sight.hpp"
+#include "piola/formulations/nodal/slits.hpp"
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
@@ -114,32 +114,6 @@ bool is_endless(MirrorImages const& images) {
   return any;
 }
 
-/// Signed distance of a place from the surface of the whole body, continued behind mirror planes [m].
-double distance_from_whole(SetUp const& from, std::array<double, 3> X) {
-  for (std::size_t c = 0; c < 3 && from.images != nullptr; ++c)
-    for (bool const upper : {false, true}) {
-      if (!from.images->has_plane(c, upper)) continue;
-      double const plane = from.images->plane(c, upper);
-      if (upper ? X[c] > plane : X[c] < plane) X[c] = 2 * plane - X[c];
-    }
-  return from.body.outline.distance(X);
-}
-
-/// Which particles do not see each other; empty: all do, as far as is known.
-std::function<bool(std::size_t, std::size_t)> blocked_lines(SetUp const& from, ScaledBody const& scaled) {
-  if (!from.body.outline.distance) return {};
-  double const spacing = *std::min_element(scaled.h.begin(), scaled.h.begin() + from.set.dimension);
-  LineOfSight const line([&](auto const& X) { return distance_from_whole(from, X); }, spacing);
-  return [&scaled, line](std::size_t a, std::size_t b) {
-    std::array<double, 3> from_a = scaled.X[a], to_b = scaled.X[b];
-    for (std::size_t c = 0; c < 3; ++c) {
-      from_a[c] *= scaled.h[c];
-      to_b[c] *= scaled.h[c];
-    }
-    return line.is_blocked(from_a, to_b);
-  };
-}
-
 /// Checks, loads, supports and halo from the fits and fluxes of a body.
 template <int D>
 void use_fits(SetUp const& from, ScaledBody& scaled, LocalFits<D> const& fits, FacetFluxes<D> const& fluxes,
@@ -160,7 +134,7 @@ template <int D>
 void make(SetUp const& from, Reference& r) {
   auto clock = std::chrono::steady_clock::now();
   auto const shape = shape_for_loops(from);
-  ScaledBody scaled = scaled_body(from, shape);
+  ScaledBody scaled = body_with_slits(from, shape);
   r.costs.cells = since(clock);
   refuse_without_cell(from, scaled);
   std::optional<DistributedSlots> shared;
@@ -170,7 +144,7 @@ void make(SetUp const& from, Reference& r) {
   auto const mass = masses<D>(from, scaled, shape, {shared, endless});
   r.costs.masses = since(clock);
   if (from.failure) {
-    auto refits = std::make_shared<RefitsOf<D>>(from, std::move(scaled), shared, &blocked_lines);
+    auto refits = std::make_shared<RefitsOf<D>>(from, std::move(scaled), shared, &lines_across_slits);
     r.refits = refits;
     r.costs.fits = since(clock);
     refuse_unsolvable(from, refits->fits());
@@ -180,9 +154,9 @@ void make(SetUp const& from, Reference& r) {
     r.costs.tables = since(clock);
     return;
   }
-  LocalFits<D> fits(scaled.X, shape, shared, blocked_lines(from, scaled));
+  LocalFits<D> fits(scaled.X, shape, shared, lines_across_slits(from, scaled));
   refuse_unsolvable(from, fits);
-  if (shape && !fits.usual()) scaled.facets = scaled_body(from, std::nullopt).facets;
+  if (shape && !fits.usual()) scaled.facets = body_with_slits(from, std::nullopt).facets;
   r.costs.fits = since(clock);
   FacetFluxes<D> const fluxes(fits, scaled);
   refuse_unsolvable(from, fits);
