@@ -73,8 +73,8 @@ TEST_P(InDimensions, BlocksThatTouchAreNotPushed) {
   EXPECT_LT(system.totals().deepest, 1e-12);
 }
 
-/// Where a point is lost, the planes of the others are blended anew: points in contact push on from their depth, so
-/// that the energy does not rise, in forces that are still its derivative, and from a checkpoint as well.
+/// Where a point is lost, another blend of planes remains. Points in contact push on from their depth: the energy does
+/// not rise, and forces are still its derivative, also from a checkpoint.
 TEST_P(InDimensions, LostPointsAddNoEnergy) {
   int const D = GetParam();
   Blocks const blocks(D, 0.15);

@@ -30,18 +30,16 @@ double& CellFailure::value(Index slot, int of) const {
   return value_at(body_.state().history, slot, Fields::failure_value(of, body_.state().dimension));
 }
 
-CellCondition CellFailure::condition(Index slot) const {
-  return static_cast<CellCondition>(static_cast<int>(value(slot, FailureLayout::condition)));
-}
+CellCondition CellFailure::condition(Index slot) const { return condition_of(value(slot, FailureLayout::condition)); }
 
 /// Whether the stress of a cell follows from its gradients.
 bool CellFailure::needs_gradients(Index slot) const {
-  return !body_.state().has.converts || condition(slot) == CellCondition::intact;
+  return !body_.state().has.converts || condition(slot) <= CellCondition::opening;
 }
 
 /// The condition that a cell gets if its gradients do not serve any more.
 CellCondition CellFailure::next_condition(Index slot) const {
-  return condition(slot) == CellCondition::intact ? CellCondition::broken : CellCondition::detached;
+  return condition(slot) <= CellCondition::opening ? CellCondition::broken : CellCondition::detached;
 }
 
 /// The changes that all ranks have found, in ascending order, the last condition of each slot.
@@ -70,8 +68,9 @@ void CellFailure::put(Refits::Change const& change) const {
   auto const& s = body_.state();
   int const D = s.dimension;
   if (change.slot < body_.own().first || change.slot >= body_.own().last) return;
-  bool const was_intact = condition(change.slot) == CellCondition::intact;
-  value(change.slot, FailureLayout::condition) = static_cast<double>(change.condition);
+  bool const was_intact = condition(change.slot) <= CellCondition::opening;
+  value(change.slot, FailureLayout::condition) = value_of(change.condition);
+  if (change.condition == CellCondition::opening) return;
   if (s.has.converts) {
     if (was_intact) make_eulerian(s, change.slot, std::max(volume_ratio_at(s, change.slot), least_converted));
     return;
@@ -105,8 +104,11 @@ void CellFailure::lose_surfaces(Index detached) {
 
 CellFailure::Changes CellFailure::set(Changes const& changes) {
   for (Refits::Change const& change : changes) {
-    if (body_.state().has.converts && body_.reference().refits->is_intact(change.slot)) eulerian_.add(change.slot);
+    bool const breaks = change.condition != CellCondition::opening;
+    if (breaks && body_.state().has.converts && body_.reference().refits->is_intact(change.slot))
+      eulerian_.add(change.slot);
     put(change);
+    if (!breaks) continue;
     if (change.condition == CellCondition::detached) lose_surfaces(change.slot);
     for (Index const slot : body_.reference().refits->near(change.slot, beside_crack)) fragments_.add(slot);
   }

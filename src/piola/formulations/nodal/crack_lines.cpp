@@ -29,10 +29,12 @@ bool CrackLines::block(std::size_t a, std::size_t b) const {
     along[c] = X_[b][c] - X_[a][c];
     middle[c] = X_[a][c] + 0.5 * along[c];
   }
+  // Opening cells measure the opening themselves, from all that they saw before.
+  auto const hides_nothing = condition_[a] == CellCondition::opening ? CellCondition::opening : CellCondition::intact;
   bool blocked = false;
   grid_.visit(middle, [&](Index other) {
     auto const k = static_cast<std::size_t>(other);
-    if (blocked || condition_[k] == CellCondition::intact || k == a || k == b) return;
+    if (blocked || condition_[k] <= hides_nothing || k == a || k == b) return;
     double at = 0, from_a = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       double const r = X_[k][c] - X_[a][c];

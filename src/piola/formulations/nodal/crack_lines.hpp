@@ -15,17 +15,18 @@ class CrackLines {
   explicit CrackLines(Points const& X);
 
   CellCondition condition(std::size_t a) const { return condition_[a]; }
-  bool is_intact(std::size_t a) const { return condition_[a] == CellCondition::intact; }
-  /// Whether some cell is not intact.
+  /// Whether a cell has not broken.
+  bool is_intact(std::size_t a) const { return condition_[a] <= CellCondition::opening; }
+  /// Whether some cell opens or has broken.
   bool any() const { return any_; }
   void set(std::size_t a, CellCondition condition);
   /// Whether the facet of cell a with a neighbour is surface, where the fit of a holds: an intact cell has such facets
-  /// with cells that are not intact, a broken one with detached cells.
+  /// with cells that have broken, a broken one with detached cells.
   bool is_face(std::size_t a, std::size_t neighbour) const {
-    return condition_[neighbour] > (is_intact(a) ? CellCondition::intact : CellCondition::broken);
+    return condition_[neighbour] > (is_intact(a) ? CellCondition::opening : CellCondition::broken);
   }
-  /// Whether a fit of one of two particles must not use the other: the other is detached, or the line between them is
-  /// longer than that of nearest neighbours and passes a particle whose cell is not intact.
+  /// Whether the fit of a must not use b: one of them is detached, or the line between them is longer than that of
+  /// nearest neighbours and passes a particle whose cell opens or has broken. Opening cells see past opening ones.
   bool block(std::size_t a, std::size_t b) const;
   /// Calls f(a) for the particles nearer to another one than `reach`, at most the largest support radius.
   template <class F>

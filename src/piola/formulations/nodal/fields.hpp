@@ -55,9 +55,27 @@ struct FailureLayout {
   };
 };
 
-/// Broken: softened entirely; carries pressure only, and hides what is behind its particle. Detached: carries nothing,
-/// and its particle is in no fit of another cell.
-enum class CellCondition : char { intact, broken, detached };
+/// Opening: hides what is behind its particle, else as an intact cell. Broken: softened entirely; carries pressure
+/// only, and hides what is behind its particle. Detached: carries nothing, and its particle is in no fit of another
+/// cell.
+enum class CellCondition : char { intact, opening, broken, detached };
+
+/// A condition as a value of the field `history`, where cells with less than 0.5 carry stress.
+constexpr double value_of(CellCondition condition) {
+  switch (condition) {
+    case CellCondition::intact: return 0;
+    case CellCondition::opening: return 0.25;
+    case CellCondition::broken: return 1;
+    case CellCondition::detached: return 2;
+  }
+  return 0;
+}
+constexpr CellCondition condition_of(double value) {
+  return value < 0.1   ? CellCondition::intact
+         : value < 0.5 ? CellCondition::opening
+         : value < 1.5 ? CellCondition::broken
+                       : CellCondition::detached;
+}
 
 /// Conditions under which a body has fields beyond those of the elastic motion.
 struct FieldNeeds {
