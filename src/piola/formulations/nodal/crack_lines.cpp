@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/crack_lines.hpp"
+#include <algorithm>
+#include <tuple>
 
 namespace piola::nodal {
 namespace {
@@ -19,31 +21,32 @@ void CrackLines::set(std::size_t a, CellCondition condition) {
   any_ = any_ || condition != CellCondition::intact;
 }
 
-bool CrackLines::block(std::size_t a, std::size_t b) const {
-  if (!any_ || a == b) return false;
-  if (condition_[a] == CellCondition::detached || condition_[b] == CellCondition::detached) return true;
-  double const square = square_of_distance(X_, a, b);
-  if (square < nearest * nearest) return false;
-  std::array<double, 3> middle{}, along{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    along[c] = X_[b][c] - X_[a][c];
-    middle[c] = X_[a][c] + 0.5 * along[c];
-  }
+CrackLines::View::View(CrackLines const& lines, std::size_t a) : lines_(lines), a_(a) {
+  if (!lines.any_) return;
   // Opening cells measure the opening themselves, from all that they saw before.
-  auto const hides_nothing = condition_[a] == CellCondition::opening ? CellCondition::opening : CellCondition::intact;
-  bool blocked = false;
-  grid_.visit(middle, [&](Index other) {
-    auto const k = static_cast<std::size_t>(other);
-    if (blocked || condition_[k] <= hides_nothing || k == a || k == b) return;
+  auto const hides_nothing =
+      lines.condition_[a] == CellCondition::opening ? CellCondition::opening : CellCondition::intact;
+  lines.each_near(a, longest_reach + 1, [&](std::size_t k) {
+    if (k != a && lines.condition_[k] > hides_nothing) hiding_.push_back(k);
+  });
+}
+
+bool CrackLines::View::hides(std::size_t b) const {
+  auto const& [X, condition] = std::tie(lines_.X_, lines_.condition_);
+  if (a_ == b) return false;
+  if (condition[a_] == CellCondition::detached || condition[b] == CellCondition::detached) return true;
+  double const square = square_of_distance(X, a_, b);
+  if (square < nearest * nearest) return false;
+  return std::any_of(hiding_.begin(), hiding_.end(), [&](std::size_t k) {
+    if (k == b) return false;
     double at = 0, from_a = 0;
     for (std::size_t c = 0; c < 3; ++c) {
-      double const r = X_[k][c] - X_[a][c];
-      at += r * along[c] / square;
+      double const r = X[k][c] - X[a_][c];
+      at += r * (X[b][c] - X[a_][c]) / square;
       from_a += r * r;
     }
-    blocked = at > 0 && at < 1 && from_a - at * at * square < width * width;
+    return at > 0 && at < 1 && from_a - at * at * square < width * width;
   });
-  return blocked;
 }
 
 }  // namespace piola::nodal

@@ -25,9 +25,19 @@ class CrackLines {
   bool is_face(std::size_t a, std::size_t neighbour) const {
     return condition_[neighbour] > (is_intact(a) ? CellCondition::opening : CellCondition::broken);
   }
-  /// Whether the fit of a must not use b: one of them is detached, or the line between them is longer than that of
-  /// nearest neighbours and passes a particle whose cell opens or has broken. Opening cells see past opening ones.
-  bool block(std::size_t a, std::size_t b) const;
+  /// Particles that cracks hide from the fit of one.
+  class View {
+   public:
+    View(CrackLines const& lines, std::size_t a);
+    /// Whether the fit must not use b: one of the two is detached, or the line between them is longer than that of
+    /// nearest neighbours and passes a particle whose cell opens or has broken. Opening cells see past opening ones.
+    bool hides(std::size_t b) const;
+
+   private:
+    CrackLines const& lines_;
+    std::size_t a_;
+    std::vector<std::size_t> hiding_;  ///< particles around a that hide others
+  };
   /// Calls f(a) for the particles nearer to another one than `reach`, at most the largest support radius.
   template <class F>
   void each_near(std::size_t of, double reach, F const& f) const {

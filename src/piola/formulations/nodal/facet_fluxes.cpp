@@ -164,6 +164,12 @@ bool FacetFluxes<D>::add_members(CellFacet const& facet, double sign, std::vecto
   return true;
 }
 
+/// Whether a particle sees another one past slits and cracks.
+template <int D>
+bool FacetFluxes<D>::is_seen(std::size_t from, std::size_t c) const {
+  return fits_.sees(from, c) && (fits_.has(from) || cracks_ == nullptr || !CrackLines::View(*cracks_, from).hides(c));
+}
+
 template <int D>
 bool FacetFluxes<D>::add_facet(std::size_t a, CellFacet const& facet, std::vector<Candidate> const& candidates) {
   auto const low = static_cast<std::size_t>(facet.a), high = static_cast<std::size_t>(facet.b);
@@ -176,7 +182,7 @@ bool FacetFluxes<D>::add_facet(std::size_t a, CellFacet const& facet, std::vecto
   std::vector<Member<values>> members;
   members.reserve(candidates.size());
   for (auto const& [c, k] : candidates) {
-    if (!fits_.sees(other, c) || (cracks_ != nullptr && cracks_->any() && !fits_.sees(a, c))) continue;
+    if (!is_seen(other, c) || (cracks_ != nullptr && cracks_->any() && !is_seen(a, c))) continue;
     auto r = fits_.difference(low, c);
     double square = core;
     for (std::size_t i = 0; i < 3; ++i) {

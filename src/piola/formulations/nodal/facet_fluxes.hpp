@@ -65,6 +65,7 @@ class FacetFluxes {
 
   bool fill_row(std::size_t a);
   std::vector<Candidate> candidates_of(std::size_t a) const;
+  bool is_seen(std::size_t from, std::size_t c) const;
   bool add_facet(std::size_t a, CellFacet const& facet, std::vector<Candidate> const& candidates);
   void add_surface(SurfacePatch const& patch);
   void add_crack_face(std::size_t a, CellFacet const& facet);

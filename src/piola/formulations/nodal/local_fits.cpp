@@ -173,7 +173,12 @@ double LocalFits<D>::nearness(std::size_t a, std::size_t b) const {
 
 template <int D>
 bool LocalFits<D>::sees(std::size_t a, std::size_t b) const {
-  return nearness(a, b) > 1 - nearly * nearly && (a == b || !blocked_ || !blocked_(a, b));
+  if (a == b) return true;
+  if (lattice_ || !has(a)) return nearness(a, b) > 1 - nearly * nearly && (!blocked_ || !blocked_(a, b));
+  auto const first = pairs_.neighbour.begin() + pairs_.begin[a], end = pairs_.neighbour.begin() + pairs_.begin[a + 1];
+  auto const found = std::lower_bound(first, end, static_cast<Index>(b));
+  return found != end && *found == static_cast<Index>(b) &&
+         pairs_.weight[static_cast<std::size_t>(found - pairs_.neighbour.begin())] > 0;
 }
 
 template <int D>
@@ -231,12 +236,18 @@ bool LocalFits<D>::fit_linear(std::size_t a) {
 }
 
 template <int D>
-bool LocalFits<D>::refit(std::size_t a) {
+typename LocalFits<D>::Refit LocalFits<D>::refit(std::size_t a, std::function<bool(std::size_t)> const& is_hidden) {
+  bool any_hidden = false, any_changed = false;
   for (std::size_t k = pairs_.first(a); k < pairs_.end(a); ++k) {
     std::size_t const b = pairs_.at(k);
-    pairs_.weight[k] = blocked_(a, b) ? 0 : weight_of(square_of_distance(X_, a, b), std::max(reach_[a], reach_[b]));
+    bool const hidden = is_hidden(b);
+    any_hidden = any_hidden || hidden;
+    if (hidden == !(pairs_.weight[k] > 0)) continue;
+    any_changed = true;
+    pairs_.weight[k] = hidden ? 0 : weight_of(square_of_distance(X_, a, b), std::max(reach_[a], reach_[b]));
   }
-  return (fit(a, a) && worst_of(a) < worst_beside_cracks) || fit_linear(a);
+  if (!any_changed) return {false, true};
+  return {true, (fit(a, a) && (!any_hidden || worst_of(a) < worst_beside_cracks)) || fit_linear(a)};
 }
 
 template <int D>

@@ -125,16 +125,21 @@ class LocalFits {
   Points const& X() const { return X_; }
   /// X_b - X_a; on a lattice whole numbers.
   std::array<double, 3> difference(std::size_t a, std::size_t b) const;
-  /// Whether b is within the larger of the support radii of two particles and not blocked, or is a itself.
+  /// Whether b is a itself, or has a weight in the fit of a; without a fit of a here, whether it is within the larger
+  /// of their support radii and not blocked.
   bool sees(std::size_t a, std::size_t b) const;
   /// 1 - (r/R)^2 of two particles.
   double nearness(std::size_t a, std::size_t b) const;
   /// Enlarges the support radii of the points whose entry in `good` is 0, and repeats the fits. Returns whether there
   /// was none. Collective if the points are distributed, with entries that count for local points.
   bool refine(std::vector<char> const& good);
-  /// Weights and fit of a point of a cloud from the pairs that are not blocked now: quadratic, or linear if that is
-  /// all that they determine. Returns whether they determine one. Collective work is not needed.
-  bool refit(std::size_t a);
+  struct Refit {
+    bool sees_others;  ///< others than before
+    bool solvable;     ///< they determine a gradient
+  };
+  /// Fit of a point of a cloud to the neighbours that cracks do not hide from it now: quadratic, or linear if that is
+  /// all that they determine. Collective work is not needed.
+  Refit refit(std::size_t a, std::function<bool(std::size_t)> const& is_hidden);
   /// Local points whose support radius is above the usual one.
   Index enlarged() const;
   /// (A^-1)_kl of a particle.

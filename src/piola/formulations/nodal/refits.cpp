@@ -20,15 +20,6 @@ std::vector<std::size_t> RefitsOf<D>::set_conditions(std::vector<Change> const& 
   return failed;
 }
 
-/// Fits a point again.
-template <int D>
-typename RefitsOf<D>::Refit RefitsOf<D>::refit(std::size_t a) {
-  auto const& pairs = fits_.pairs();
-  std::vector<double> const before(pairs.weight.begin() + pairs.begin[a], pairs.weight.begin() + pairs.begin[a + 1]);
-  bool const solvable = fits_.refit(a);
-  return {!std::equal(before.begin(), before.end(), pairs.weight.begin() + pairs.begin[a]), solvable};
-}
-
 template <int D>
 Refits::Found RefitsOf<D>::set(std::vector<Change> const& changes) {
   std::vector<std::size_t> const failed = set_conditions(changes);
@@ -44,7 +35,8 @@ Refits::Found RefitsOf<D>::set(std::vector<Change> const& changes) {
       affected.push_back(a);
       continue;
     }
-    auto const [sees_others, solvable] = refit(a);
+    auto const [sees_others, solvable] =
+        fits_.refit(a, [view = CrackLines::View(cracks_, a)](std::size_t b) { return view.hides(b); });
     if (!sees_others) continue;
     affected.push_back(a);
     changed.push_back(a);

@@ -20,10 +20,7 @@ class RefitsOf final : public Refits {
       : from_(from),
         scaled_(std::move(scaled)),
         cracks_(scaled_.X),
-        fits_(scaled_.X, std::nullopt, shared,
-              [this, slit = slits(from_, scaled_)](std::size_t a, std::size_t b) {
-                return cracks_.block(a, b) || (slit && slit(a, b));
-              }),
+        fits_(scaled_.X, std::nullopt, shared, slits(from_, scaled_)),
         fluxes_(fits_, scaled_, &cracks_) {
     if (from.images != nullptr) source_of_image_ = from.images->particles().source;
   }
@@ -42,11 +39,6 @@ class RefitsOf final : public Refits {
 
  private:
   std::vector<std::size_t> set_conditions(std::vector<Change> const& changes);
-  struct Refit {
-    bool sees_others;  ///< others than before
-    bool solvable;     ///< they determine a gradient
-  };
-  Refit refit(std::size_t a);
 
   SetUp from_;
   ScaledBody scaled_;
