@@ -156,7 +156,11 @@ void make(SetUp const& from, Reference& r) {
   }
   LocalFits<D> fits(scaled.X, shape, shared, lines_across_slits(from, scaled));
   refuse_unsolvable(from, fits);
-  if (shape && !fits.usual()) scaled.facets = body_with_slits(from, std::nullopt).facets;
+  if (shape && !fits.usual()) {
+    ScaledBody whole = body_with_slits(from, std::nullopt);
+    scaled.facets = std::move(whole.facets);
+    scaled.patches = std::move(whole.patches);
+  }
   r.costs.fits = since(clock);
   FacetFluxes<D> const fluxes(fits, scaled);
   refuse_unsolvable(from, fits);
