@@ -9,8 +9,7 @@ namespace {
 
 /// Volume ratio below which a point breaks an intact cell, and the mean ratio detaches a broken one.
 constexpr double least_ratio = 0.1;
-/// Softening from which a cell of a crack opens. With 0.9 gradients of jittered particles get steep while their cells
-/// still carry much; with 0.98 cells beside the crack keep more of its strain.
+/// Softening from which a cell of a crack opens. Chosen by trials, see docs/decisions/29-nodal-failure.md.
 constexpr double opens = 0.95;
 /// The particle of a cell that has broken is detached when it is farther from where an intact cell expects it, in
 /// spacings.
