@@ -11,8 +11,9 @@ constexpr double deepest = 0.25, steepest = 0.2, shortest = 0.02;
 /// Slits that are narrower than twice this do not count.
 constexpr double narrowest = 1e-6;
 
-/// Whether a line crosses a narrow slit behind s, to where its distance has risen: then the distance rises above zero
-/// and falls as steeply as it rose. distance_at(s): in spacings, negative inside.
+/// Whether a line crosses a narrow slit just behind s, up to where the distance from the surface has risen to about
+/// zero. Across a slit the distance rises above zero, then falls as steeply. distance_at(s): in spacings, negative
+/// inside.
 template <class F>
 bool crosses_slit(F const& distance_at, double s) {
   double low = s, high = s + 4 * shortest;

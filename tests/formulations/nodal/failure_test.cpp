@@ -72,9 +72,7 @@ TEST(NodalFailure, CrackTakesTheFractureEnergy) {
     double const section = bar.dimension == 2 ? width : width * width;
     double const before = f->diagnose().total_energy();
     advance_to(*f, 0, 500e-6);
-    if (bar.jitter == 0) {
-      EXPECT_EQ(column(*f, "failed_particles"), bar.dimension == 2 ? 10 : 50);
-    }
+    EXPECT_NEAR(column(*f, "failed_particles"), bar.dimension == 2 ? 10 : 50, bar.jitter > 0 ? 1 : 0);
     EXPECT_NEAR(column(*f, "crack_area"), section, bar.jitter > 0 ? 0.1 * section : 1e-9 * section);
     EXPECT_NEAR(column(*f, "fracture_energy"), toughness * section, 0.06 * toughness * section);
     Diagnostics const d = f->diagnose();

@@ -78,7 +78,8 @@ class NodalBody {
   /// Mean over the points of a cell of one number of their histories (HistoryLayout); 0 for bodies without solids in
   /// rate form.
   double mean_of_points(Index slot, int number) const;
-  bool is_broken(Index slot) const { return failure_value(slot, FailureLayout::condition) > 0.5; }
+  CellCondition condition(Index slot) const { return condition_of(failure_value(slot, FailureLayout::condition)); }
+  bool is_broken(Index slot) const { return condition(slot) >= CellCondition::broken; }
   bool is_eulerian(Index slot) const { return state_.has.converts && is_broken(slot); }
   /// A value of FailureLayout; 0 for bodies whose cells cannot fail.
   double failure_value(Index slot, int of) const {

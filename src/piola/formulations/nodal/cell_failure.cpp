@@ -30,16 +30,12 @@ double& CellFailure::value(Index slot, int of) const {
   return value_at(body_.state().history, slot, Fields::failure_value(of, body_.state().dimension));
 }
 
-CellCondition CellFailure::condition(Index slot) const { return condition_of(value(slot, FailureLayout::condition)); }
-
 /// Whether the stress of a cell follows from its gradients.
-bool CellFailure::needs_gradients(Index slot) const {
-  return !body_.state().has.converts || condition(slot) <= CellCondition::opening;
-}
+bool CellFailure::needs_gradients(Index slot) const { return !body_.is_eulerian(slot); }
 
 /// The condition that a cell gets if its gradients do not serve any more.
 CellCondition CellFailure::next_condition(Index slot) const {
-  return condition(slot) <= CellCondition::opening ? CellCondition::broken : CellCondition::detached;
+  return body_.is_broken(slot) ? CellCondition::detached : CellCondition::broken;
 }
 
 /// The changes that all ranks have found, in ascending order, the last condition of each slot.
@@ -68,11 +64,11 @@ void CellFailure::put(Refits::Change const& change) const {
   auto const& s = body_.state();
   int const D = s.dimension;
   if (change.slot < body_.own().first || change.slot >= body_.own().last) return;
-  bool const was_intact = condition(change.slot) <= CellCondition::opening;
+  bool const was_broken = body_.is_broken(change.slot);
   value(change.slot, FailureLayout::condition) = value_of(change.condition);
   if (change.condition == CellCondition::opening) return;
   if (s.has.converts) {
-    if (was_intact) make_eulerian(s, change.slot, std::max(volume_ratio_at(s, change.slot), least_converted));
+    if (!was_broken) make_eulerian(s, change.slot, std::max(volume_ratio_at(s, change.slot), least_converted));
     return;
   }
   if (change.condition != CellCondition::detached) return;
@@ -186,7 +182,7 @@ void CellFailure::load(StateReader& reader, std::string const& name) {
   if (!body_.reference().refits) return;
   Changes changes;
   for (Index i = body_.own().first; i < body_.own().last; ++i)
-    if (condition(i) != CellCondition::intact) changes.push_back({i, condition(i)});
+    if (body_.condition(i) != CellCondition::intact) changes.push_back({i, body_.condition(i)});
   changes = over_ranks(std::move(changes));
   if (!changes.empty()) set(changes);
   for (Index i = body_.own().first; i < body_.own().last; ++i) value(i, FailureLayout::refitted) = 0;

@@ -39,7 +39,6 @@ class CellFailure {
   using Changes = std::vector<Refits::Change>;
 
   double& value(Index slot, int of) const;
-  CellCondition condition(Index slot) const;
   bool needs_gradients(Index slot) const;
   CellCondition next_condition(Index slot) const;
   Changes over_ranks(Changes found) const;

@@ -25,7 +25,7 @@ class CrackLines {
   bool is_face(std::size_t a, std::size_t neighbour) const {
     return condition_[neighbour] > (is_intact(a) ? CellCondition::opening : CellCondition::broken);
   }
-  /// Particles that cracks hide from the fit of one.
+  /// The particles that cracks hide from the fit of a particle a.
   class View {
    public:
     View(CrackLines const& lines, std::size_t a);

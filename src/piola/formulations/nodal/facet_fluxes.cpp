@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace piola::nodal {
 namespace {
@@ -164,25 +165,20 @@ bool FacetFluxes<D>::add_members(CellFacet const& facet, double sign, std::vecto
   return true;
 }
 
-/// Whether a particle sees another one past slits and cracks.
+/// The candidates of a cell that the cell and `other`, on the other side of a facet, see.
 template <int D>
-bool FacetFluxes<D>::is_seen(std::size_t from, std::size_t c) const {
-  return fits_.sees(from, c) && (fits_.has(from) || cracks_ == nullptr || !CrackLines::View(*cracks_, from).hides(c));
-}
-
-template <int D>
-bool FacetFluxes<D>::add_facet(std::size_t a, CellFacet const& facet, std::vector<Candidate> const& candidates) {
+std::vector<typename FacetFluxes<D>::template Member<FacetFluxes<D>::values>> FacetFluxes<D>::members_of(
+    std::size_t other, CellFacet const& facet, std::vector<Candidate> const& candidates) const {
   auto const low = static_cast<std::size_t>(facet.a), high = static_cast<std::size_t>(facet.b);
-  std::size_t const other = a == low ? high : low;
-  if (cracks_ != nullptr && cracks_->is_face(a, other)) {
-    add_crack_face(a, facet);
-    return true;
-  }
+  // Particles that cracks hide from `other` have no weight in the fit of `other`, if this rank has that fit.
+  std::optional<CrackLines::View> from_other;
+  if (cracks_ != nullptr && !fits_.has(other)) from_other.emplace(*cracks_, other);
   auto const across = fits_.difference(low, high);
   std::vector<Member<values>> members;
   members.reserve(candidates.size());
   for (auto const& [c, k] : candidates) {
-    if (!is_seen(other, c) || (cracks_ != nullptr && cracks_->any() && !is_seen(a, c))) continue;
+    bool const a_sees = k == itself || fits_.pairs().weight[k] > 0;
+    if (!a_sees || !fits_.sees(other, c) || (from_other && from_other->hides(c))) continue;
     auto r = fits_.difference(low, c);
     double square = core;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -192,6 +188,18 @@ bool FacetFluxes<D>::add_facet(std::size_t a, CellFacet const& facet, std::vecto
     double const weight = fits_.nearness(low, c) * fits_.nearness(high, c) / square;
     members.push_back({k, weight, monomials_at<D>(r)});
   }
+  return members;
+}
+
+template <int D>
+bool FacetFluxes<D>::add_facet(std::size_t a, CellFacet const& facet, std::vector<Candidate> const& candidates) {
+  auto const low = static_cast<std::size_t>(facet.a);
+  std::size_t const other = a == low ? static_cast<std::size_t>(facet.b) : low;
+  if (cracks_ != nullptr && cracks_->is_face(a, other)) {
+    add_crack_face(a, facet);
+    return true;
+  }
+  auto const members = members_of(other, facet, candidates);
   double const sign = a == low ? 1 : -1;
   bool const cracked = cracks_ != nullptr && cracks_->any();
   if (add_members<values>(facet, sign, members, cracked ? worst_beside_cracks : worst_condition)) return true;

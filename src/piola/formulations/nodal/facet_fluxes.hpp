@@ -65,7 +65,6 @@ class FacetFluxes {
 
   bool fill_row(std::size_t a);
   std::vector<Candidate> candidates_of(std::size_t a) const;
-  bool is_seen(std::size_t from, std::size_t c) const;
   bool add_facet(std::size_t a, CellFacet const& facet, std::vector<Candidate> const& candidates);
   void add_surface(SurfacePatch const& patch);
   void add_crack_face(std::size_t a, CellFacet const& facet);
@@ -75,6 +74,8 @@ class FacetFluxes {
     double weight;
     std::array<double, static_cast<std::size_t>(N)> p;
   };
+  std::vector<Member<values>> members_of(std::size_t other, CellFacet const& facet,
+                                         std::vector<Candidate> const& candidates) const;
   template <int N>
   bool add_members(CellFacet const& facet, double sign, std::vector<Member<N>> const& members, double worst);
   /// Calls f(k, share) with the weights of particles in the integral of a radial field over the section of cell a, as

@@ -17,10 +17,6 @@ constexpr double tether = 1;
 /// Volume ratio and norms of F and of its inverse at which an intact cell becomes Eulerian, if it may.
 constexpr double least_volume = 0.3, most_volume = 3, most_norm = 4.5;
 
-CellCondition condition(NodalBody const& body, Index slot) {
-  return condition_of(body.failure_value(slot, FailureLayout::condition));
-}
-
 /// Whether an intact cell has softened so far by a crack that it opens.
 bool is_opening(NodalBody const& body, Index slot) {
   return body.failure_value(slot, FailureLayout::largest_stress) > 0 &&
@@ -92,7 +88,7 @@ void find_detached(NodalBody const& body, Index slot, std::vector<Refits::Change
 std::vector<Refits::Change> find_failing(NodalBody const& body, std::vector<char> const& near_crack) {
   std::vector<Refits::Change> found;
   for (Index i = body.own().first; i < body.own().last; ++i) {
-    switch (condition(body, i)) {
+    switch (body.condition(i)) {
       case CellCondition::intact:
       case CellCondition::opening:
         if (body.failure_value(i, FailureLayout::softening) >= 1 ||
@@ -100,7 +96,7 @@ std::vector<Refits::Change> find_failing(NodalBody const& body, std::vector<char
           found.push_back({i, CellCondition::broken});
         else if (converts(body, i))
           found.push_back({i, CellCondition::broken});
-        else if (condition(body, i) == CellCondition::intact && is_opening(body, i))
+        else if (body.condition(i) == CellCondition::intact && is_opening(body, i))
           found.push_back({i, CellCondition::opening});
         else if (near_crack[static_cast<std::size_t>(i)] != 0)
           find_detached(body, i, found);

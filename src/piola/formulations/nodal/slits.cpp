@@ -40,7 +40,8 @@ class Slits {
   LineOfSight line_;
 };
 
-/// A facet as the surface of one of its two cells. `away`: from the middle between the particles to that of the cell.
+/// A facet as the surface of one of its two cells. `away`: vector from the middle between the two particles to the
+/// particle of that cell.
 SurfacePatch patch_of(CellFacet const& facet, Index particle, Place const& away) {
   SurfacePatch patch;
   patch.particle = particle;
@@ -59,7 +60,7 @@ SurfacePatch patch_of(CellFacet const& facet, Index particle, Place const& away)
   return patch;
 }
 
-/// From the middle between two particles to the centre of their facet, across the line between them.
+/// Vector from the line between two particles to the centre of their facet, perpendicular to the line.
 Place beside_line(CellFacet const& facet, Place const& across) {
   Place centre{};
   double square = 0, along = 0, length = 0;

@@ -111,8 +111,7 @@ void BodyContact::carry_energies(ContactModel const& model) {
       carried_[{static_cast<Index>(ranges_[k].body), ranges_[k].target}] = energy_per_area(model, ranges_[k], gaps_[k]);
 }
 
-/// Points push on with the energy of before the planes have changed, or less; points that saw none push from their
-/// depth.
+/// Sets depths after planes were removed: each point keeps the energy of carry_energies(), or none if it had none.
 void BodyContact::set_offsets(ContactModel const& model) {
   if (!std::exchange(carries_, false)) return;
   for (std::size_t k = 0; k < ranges_.size(); ++k) {

@@ -16,8 +16,8 @@ class BodyContact {
   /// Marks the points in the lists.
   void mark(std::vector<char>& points) const;
   void evaluate(ContactModel& model, ContactState& state);
-  /// Before planes are removed from the lists, at the places of the next evaluation: keeps the energies of points for
-  /// that evaluation, so that none rises where the blend of the other planes is another one.
+  /// Keeps the energy of each point for the next evaluation, in which no point may have more. To be called before
+  /// planes are removed from the lists, at the places of that evaluation.
   void carry_energies(ContactModel const& model);
   /// Depths of such points for a checkpoint.
   std::vector<double> depths() const { return offsets_.state(); }
