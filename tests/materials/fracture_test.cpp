@@ -36,6 +36,17 @@ TEST(Fracture, TooWideBandKeepsTheEnergyAndLosesStrength) {
   EXPECT_NEAR(band.last / band.strength, 1.05, 1e-12);
 }
 
+/// E = 200 GPa, nu = 0.3: w = (a^2 + b^2 - 2 nu a b) / (2 E) for two stresses a, b; compression does not count.
+TEST(Fracture, TensionIsTheEnergyOfTensileStresses) {
+  double const young = 200e9, nu = 0.3, mu = young / (2 * (1 + nu)), kappa = young / (3 * (1 - 2 * nu));
+  EXPECT_NEAR(squared_tension({5e6, -3e6, 0}, young, kappa, mu), 25e12, 1e3);
+  EXPECT_NEAR(squared_tension({4e6, 2e6, -1e6}, young, kappa, mu), 15.2e12, 1e3);
+  EXPECT_NEAR(squared_tension({1e6, 1e6, 1e6}, young, kappa, mu), 1.2e12, 1e3);
+  // Plane strain across a crack: the stress along the crack's edge is nu times that across it.
+  EXPECT_NEAR(squared_tension({5e6, 1.5e6, 0}, modulus_across_crack(2, kappa, mu), kappa, mu), 25e12, 1e3);
+  EXPECT_NEAR(squared_tension({7e6, 3e6, 3e6}, modulus_across_crack(1, kappa, mu), kappa, mu), 49e12, 1e3);
+}
+
 TEST(Fracture, ModulusAcrossACrackIsThatOfTheDimension) {
   double const young = 200e9, nu = 0.3, mu = young / (2 * (1 + nu)), kappa = young / (3 * (1 - 2 * nu));
   EXPECT_NEAR(modulus_across_crack(1, kappa, mu), young * (1 - nu) / ((1 + nu) * (1 - 2 * nu)), 1);

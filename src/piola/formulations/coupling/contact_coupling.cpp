@@ -40,6 +40,7 @@ void ContactCoupling::start(Formulations const& formulations) {
     system_.start(x);
     motion_.start(system_);
   } else {
+    system_.late_rigids().load(loaded_.rigid_depths);
     system_.restore(x, loaded_.surfaces);
     system_.load_depths(loaded_.depths);
     colours_.load(loaded_.colours);
@@ -86,9 +87,12 @@ void ContactCoupling::find_lost_surfaces(Formulations const& formulations) {
   system_.drop({lost.begin(), lost.begin() + static_cast<std::ptrdiff_t>(system_.ids().size())});
   lost_.count(lost, particles_.ids());
   colours_.add_targets(lost);
-  if (!colours_.any() || !particles_.read_late()) return;
-  particles_.read_masses(formulations);
-  particles_.read_motion(formulations);
+  system_.late_rigids().add_targets(lost);
+  if ((colours_.any() || system_.late_rigids().any()) && particles_.read_late()) {
+    particles_.read_masses(formulations);
+    particles_.read_motion(formulations);
+  }
+  system_.late_rigids().set_masses(particles_.masses());
 }
 
 /// Contact and ties together.
@@ -103,12 +107,17 @@ void ContactCoupling::sum_forces() {
     forces[static_cast<std::size_t>(k)] = system_.forces()[static_cast<std::size_t>(k)];
   ties_.add_forces(forces);
   particles_.fold_images(forces_);
-  std::vector<Index> const surfaces = std::exchange(loaded, {});
-  std::set_union(surfaces.begin(), surfaces.end(), colours_.loaded_indices().begin(), colours_.loaded_indices().end(),
-                 std::back_inserter(loaded));
-  for (Index const k : colours_.loaded_indices()) {
+  add_forces(colours_.forces(), colours_.loaded_indices());
+  add_forces(system_.late_rigids().forces(), system_.late_rigids().loaded_indices());
+}
+
+/// Adds forces at the indices `at`.
+void ContactCoupling::add_forces(std::vector<Vec<3>> const& forces, std::vector<Index> const& at) {
+  std::vector<Index> const before = std::exchange(forces_.loaded, {});
+  std::set_union(before.begin(), before.end(), at.begin(), at.end(), std::back_inserter(forces_.loaded));
+  for (Index const k : at) {
     auto const i = static_cast<std::size_t>(k);
-    forces[i] = forces[i] + colours_.forces()[i];
+    forces_.values[i] = forces_.values[i] + forces[i];
   }
 }
 

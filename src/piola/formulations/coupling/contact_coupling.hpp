@@ -70,6 +70,7 @@ class ContactCoupling {
   double contact_time_step() const;
   void fit_areas(Formulations const& formulations);
   void sum_forces();
+  void add_forces(std::vector<Vec<3>> const& forces, std::vector<Index> const& at);
   void find_lost_surfaces(Formulations const& formulations);
 
   std::vector<std::string> names_;  ///< of bodies
@@ -86,7 +87,7 @@ class ContactCoupling {
   SparseVectors forces_;  ///< of contact and ties [N]
   /// From a checkpoint, until the state of the bodies is loaded.
   struct Loaded {
-    std::vector<double> surfaces, depths, colours;
+    std::vector<double> surfaces, depths, rigid_depths, colours;
   } loaded_;
   double work_ = 0, friction_work_ = 0, chatter_loss_ = 0, last_dt_ = 0, closing_ = 0;
 };

@@ -225,6 +225,17 @@ ContactCoupling::ContactCoupling(Assembly const& whole, MirroredAssembly const& 
   for (std::size_t b = 0; b < continued.mirrors.size(); ++b) system_.set_mirrors(b, continued.mirrors[b]);
   system_.damp_chatter(chatter_fractions(whole));
   particles_.assign(parts);
+  std::map<std::int64_t, Index> const indices = particles_.indices();
+  for (std::size_t b = 0; b < names_.size(); ++b) {
+    if (!lost_.meets_shapes(b)) continue;
+    std::vector<Index> at;
+    std::vector<double> volumes;
+    for (auto id = whole.particles.bodies[b].first; id < whole.particles.bodies[b].last; ++id) {
+      at.push_back(indices.at(id));
+      volumes.push_back(whole.particles.volume[static_cast<std::size_t>(id)]);
+    }
+    system_.late_rigids().set_particles(b, at, volumes);
+  }
 }
 
 }  // namespace piola

@@ -7,7 +7,10 @@ namespace piola {
 void ContactCoupling::save(StateWriter& writer) const {
   writer.put_sized("contact_count", "contact_state", system_.state());
   if (!lost_.pairs().empty()) writer.put_sized("contact_colour_count", "contact_colours", colours_.state());
-  if (lost_.any()) writer.put_sized("contact_depth_count", "contact_depths", system_.depths());
+  if (lost_.any()) {
+    writer.put_sized("contact_depth_count", "contact_depths", system_.depths());
+    writer.put_sized("rigid_depth_count", "rigid_depths", system_.late_rigids().state());
+  }
   std::vector<double> rigid{work_, last_dt_, friction_work_, chatter_loss_};
   for (std::size_t r = 0; r < shapes_.size(); ++r)
     for (Vec<3> const& a : {system_.rigid(r).centre, system_.rigid(r).velocity}) contact::put(rigid, a);
@@ -34,7 +37,10 @@ void ContactCoupling::load(StateReader& reader) {
   }
   loaded_.surfaces = reader.get_sized("contact_count", "contact_state");
   if (!lost_.pairs().empty()) loaded_.colours = reader.get_sized("contact_colour_count", "contact_colours");
-  if (lost_.any()) loaded_.depths = reader.get_sized("contact_depth_count", "contact_depths");
+  if (lost_.any()) {
+    loaded_.depths = reader.get_sized("contact_depth_count", "contact_depths");
+    loaded_.rigid_depths = reader.get_sized("rigid_depth_count", "rigid_depths");
+  }
   std::vector<double> actions = actions_.state();
   reader.get("contact_actions", actions);
   actions_.restore(actions);

@@ -47,7 +47,7 @@ void LostSurfaces::find_pairs(Assembly const& whole, contact::PairSettings const
       body.loses = true;
       bool const coloured = b < n && !whole.particles.axisymmetric && !has_mirrors(whole, a) && !has_mirrors(whole, b);
       if (b >= n) body.meets_shapes = true;
-      if (b < n && !coloured) body.meets_bodies = true;
+      if (b < n && !coloured) body.is_uncovered = true;
       if (coloured && (b > a || !fails_without_contact(whole, b)))
         pairs_.push_back({std::min(a, b), std::max(a, b), settings[a][b].factor, true});
     }
@@ -67,9 +67,8 @@ void LostSurfaces::count(std::vector<char> const& lost, std::vector<std::int64_t
 
 void LostSurfaces::report(Diagnostics& sum) const {
   for (BodyCount const& body : bodies_) {
-    if (body.particles == 0 || !(body.meets_bodies || body.meets_shapes)) continue;
-    char const* const of = !body.meets_shapes ? "other bodies" : !body.meets_bodies ? "rigid shapes" : "anything";
-    sum.uncovered.push_back({"body " + in_quotes(body.name), of, body.particles});
+    if (body.particles > 0 && body.is_uncovered)
+      sum.uncovered.push_back({"body " + in_quotes(body.name), "other bodies", body.particles});
   }
 }
 

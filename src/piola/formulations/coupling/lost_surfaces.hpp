@@ -15,8 +15,8 @@ namespace piola {
 bool may_lose_surface(FormulationSpec const& formulation);
 
 /// Bodies whose particles may lose their surface points because material fails, as under `nodal`, and the number of
-/// particles that have. Colour contact keeps such particles apart from other bodies; report() counts those that nothing
-/// keeps apart.
+/// particles that have. Colour contact keeps such particles apart from other bodies, LateRigidContact from rigid
+/// shapes; report() counts those that nothing keeps apart.
 class LostSurfaces {
  public:
   using Pairs = std::vector<contact::ColourContact::Pair>;
@@ -30,6 +30,8 @@ class LostSurfaces {
   bool any() const { return any_; }
   /// Whether a body may lose its surface and is in contact with another body or a rigid shape.
   bool may_lose(std::size_t body) const { return bodies_[body].loses; }
+  /// Whether such a body is in contact with a rigid shape.
+  bool meets_shapes(std::size_t body) const { return bodies_[body].meets_shapes; }
   /// Counts the marked particles, by index. ids: of particles, by index; -1: an image.
   void count(std::vector<char> const& lost, std::vector<std::int64_t> const& ids);
   void report(Diagnostics& sum) const;
@@ -37,10 +39,11 @@ class LostSurfaces {
  private:
   struct BodyCount {
     std::string name;
-    std::int64_t first, last;         ///< ids
-    bool loses;                       ///< see may_lose()
-    bool meets_bodies, meets_shapes;  ///< whether nothing keeps its particles apart from some of them
-    std::int64_t particles = 0;       ///< without a surface
+    std::int64_t first, last;    ///< ids
+    bool loses;                  ///< see may_lose()
+    bool meets_shapes;           ///< see meets_shapes()
+    bool is_uncovered;           ///< whether nothing keeps its particles apart from some bodies
+    std::int64_t particles = 0;  ///< without a surface
   };
   void find_pairs(Assembly const& whole, contact::PairSettings const& settings);
 

@@ -207,20 +207,32 @@ int NodalBody::step(Backend const& backend, double time, double dt, int halvings
   return 1 + first + (failed() ? 0 : step(backend, time + 0.5 * dt, 0.5 * dt, halvings + 1));
 }
 
-/// Finds the local cells with an inverted point. Returns whether there is one on any rank.
+/// Finds the local cells with an inverted point, and broken ones behind the axis. Returns whether there is one on any
+/// rank.
 bool NodalBody::find_crushed(std::vector<Index>& slots) const {
   for (Index i = own().first; i < std::min(own().last, order_.particles); ++i)
-    if (!(value(state_.change, i, 1) > 0)) slots.push_back(i);
+    if (!(value(state_.change, i, 1) > 0) || (is_behind_axis(i) && is_broken(i))) slots.push_back(i);
   double any = slots.empty() ? 0 : 1;
   if (shared()) comm::allreduce_max(any);
   return any > 0;
 }
 
-/// A hole of the body has closed, or the step was too large.
-void NodalBody::record_behind_axis() {
+bool NodalBody::is_behind_axis(Index slot) const {
   constexpr double rounding = 1e-6;  // spacings
-  for (Index i = own().first; i < own().last; ++i)
-    if (value(state_.x, i) < -rounding * body_.spacing[0]) exec::record(&failure_, i, behind_axis);
+  return state_.has.axisymmetric && value(state_.x, slot) < -rounding * body_.spacing[0];
+}
+
+/// A hole of the body has closed, or the step was too large. Detached particles cross the axis: the ring that has
+/// closed opens again.
+void NodalBody::record_behind_axis() {
+  for (Index i = own().first; i < own().last; ++i) {
+    if (!is_behind_axis(i)) continue;
+    if (condition(i) != CellCondition::detached) {
+      exec::record(&failure_, i, behind_axis);
+      continue;
+    }
+    for (auto const& field : {state_.x, state_.v}) value_at(field, i, 0) *= -1;
+  }
 }
 
 /// All ranks have the first failure and the largest change of a strain.

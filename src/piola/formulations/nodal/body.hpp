@@ -123,6 +123,7 @@ class NodalBody {
   void fill(Assembly const& assembly, Backend const& backend);
   void make_boundary(Assembly const& assembly, std::size_t body);
   void make_pressure(Backend const& backend);
+  bool is_behind_axis(Index slot) const;
   void record_behind_axis();
   void agree_on_step(double change);
   bool find_crushed(std::vector<Index>& slots) const;

@@ -24,23 +24,27 @@ struct CellStress {
     }
   }
 
-  /// Largest principal stress, positive part, root mean square over the points; 0 if it cannot be larger than `least`
-  /// [Pa]. With the mean over the points a crack takes the fracture energy however the strain is spread over them.
-  PIOLA_FN double largest_principal(double least) const {
+  /// Root mean square of the tension of the points, see squared_tension; 0 if it cannot be larger than `least` [Pa].
+  /// With the mean over the points a crack takes the fracture energy however the strain is spread over them. modulus:
+  /// modulus_across_crack.
+  PIOLA_FN double tension(double least, double modulus, double kappa, double mu) const {
     SymMat<3> sigma[Points];
     double bound = 0;
     for (int q = 0; q < Points; ++q) {
       for (int c = 0; c < 6; ++c) sigma[q].c[c] = S[q].c[c] + (c < 3 ? spread[q] - pressure : 0);
       bound = maximum(bound, eigenvalue_bound(sigma[q]));
     }
-    if (!(bound > least)) return 0;
-    double square = 0;
-    for (int q = 0; q < Points; ++q) {
-      Eigen<3> const e = symmetric_eigen(sigma[q]);
-      double most = 0;
-      for (double const principal : e.value) most = maximum(most, principal);
-      square += most * most / Points;
+    if (!(bound > 0)) return 0;
+    // The energy is a convex function of the principal stresses: it is largest where each is 0 or at its bound.
+    double corner[3]{}, most = 0;
+    for (double& stress : corner) {
+      stress = bound;
+      most = maximum(most, squared_tension(corner, modulus, kappa, mu));
     }
+    if (!(most > least * least)) return 0;
+    double square = 0;
+    for (int q = 0; q < Points; ++q)
+      square += squared_tension(symmetric_eigen(sigma[q]).value, modulus, kappa, mu) / Points;
     return square_root(square);
   }
 

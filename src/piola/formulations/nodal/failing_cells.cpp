@@ -16,6 +16,8 @@ constexpr double opens = 0.95;
 constexpr double tether = 1;
 /// Volume ratio and norms of F and of its inverse at which an intact cell becomes Eulerian, if it may.
 constexpr double least_volume = 0.3, most_volume = 3, most_norm = 4.5;
+/// Least volume ratio and mean stretch of an Eulerian cell whose neighbours have parted.
+constexpr double least_torn = 1.02, most_stretch = 1.4;
 
 /// Whether an intact cell has softened so far by a crack that it opens.
 bool is_opening(NodalBody const& body, Index slot) {
@@ -44,13 +46,53 @@ double equivalent_strain(Mat<3> const& F) {
   return std::sqrt(2.0 / 3 * square);
 }
 
+/// Deformation gradient of a cell, mean over its points; 1 across the plane.
+Mat<3> mean_gradient(NodalBody const& body, Index slot) {
+  Mat<3> F = identity<3>();
+  int const D = body.state().dimension;
+  for (int c = 0; c < D * D; ++c) F(c / D, c % D) = body.mean_of_points(slot, HistoryLayout::F + c);
+  return F;
+}
+
+/// Root mean square of the stretch between a particle and those that were within 1.5 spacings at the start.
+double mean_stretch(NodalBody const& body, Index slot) {
+  auto const& s = body.state();
+  auto const& r = body.reference();
+  double sum = 0, count = 0;
+  for (auto k = r.begin[static_cast<std::size_t>(slot)]; k < r.begin[static_cast<std::size_t>(slot) + 1]; ++k) {
+    Index const b = r.neighbour[static_cast<std::size_t>(k)];
+    double spacings = 0, before = 0, now = 0;
+    for (int c = 0; c < s.dimension; ++c) {
+      double const X = value_at(s.X, b, c) - value_at(s.X, slot, c), x = value_at(s.x, b, c) - value_at(s.x, slot, c),
+                   h = body.body().spacing[static_cast<std::size_t>(c)];
+      spacings += X * X;
+      before += X * X * h * h;
+      now += x * x;
+    }
+    if (!(spacings > 0 && spacings < 2.25)) continue;
+    sum += now / before;
+    count += 1;
+  }
+  return count > 0 ? std::sqrt(sum / count) : 1;
+}
+
+/// Whether a failed cell lies among neighbours that have parted, or been pressed into each other, so that its gradients
+/// and its surface do not serve any more.
+bool is_torn(NodalBody const& body, Index slot) {
+  if (body.state().has.converts)
+    return body.failure_value(slot, FailureLayout::volume_factor) > least_torn &&
+           mean_stretch(body, slot) > most_stretch;
+  Mat<3> const F = mean_gradient(body, slot);
+  int const D = body.state().dimension;
+  return !(norm_in_space(F, D) < most_norm && norm_in_space(inverse(F), D) < most_norm);
+}
+
 /// Whether an intact cell becomes Eulerian by its strain, or because it is so deformed that its gradients do not serve.
 bool converts(NodalBody const& body, Index slot) {
   auto const& s = body.state();
   if (!s.has.converts) return false;
-  Mat<3> F = identity<3>();
+  Mat<3> F = mean_gradient(body, slot);
   int const D = s.dimension;
-  for (int c = 0; c < D * D; ++c) F(c / D, c % D) = body.mean_of_points(slot, HistoryLayout::F + c);
   if (D == 2) F(2, 2) = body.mean_of_points(slot, HistoryLayout::F + 4);
   double const J = volume_ratio_at(s, slot), norm = norm_in_space(F, D), inverse_norm = norm_in_space(inverse(F), D);
   return !(J > least_volume && J < most_volume && norm < most_norm && inverse_norm < most_norm) ||
@@ -102,7 +144,7 @@ std::vector<Refits::Change> find_failing(NodalBody const& body, std::vector<char
           find_detached(body, i, found);
         break;
       case CellCondition::broken:
-        if (!body.state().has.converts && !(volume_ratio_at(body.state(), i) > least_ratio))
+        if ((!body.state().has.converts && !(volume_ratio_at(body.state(), i) > least_ratio)) || is_torn(body, i))
           found.push_back({i, CellCondition::detached});
         break;
       case CellCondition::detached: break;

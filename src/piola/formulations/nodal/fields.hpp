@@ -46,7 +46,7 @@ struct FailureLayout {
   enum : int {
     condition,        ///< see CellCondition
     softening,        ///< share of tension and shear that is lost, 0 to 1
-    largest_stress,   ///< largest principal stress so far, undamaged, root mean square over the points [Pa]
+    largest_stress,   ///< largest tension so far, undamaged, root mean square over the points [Pa]
     fracture_energy,  ///< lost by softening, per reference volume [J/m^3]
     toughness,        ///< factor on the failure strength; constant
     volume_factor,    ///< volume ratio over that of the stored F, after gradients changed

@@ -252,7 +252,8 @@ class SolidCells {
         CrackBand const band =
             crack_band(failure_.strength * lane(cell.toughness, l), failure_.energy, failure_.modulus, failure_.band);
         double const largest = value(At::largest_stress);
-        double const most = maximum(largest, stress.largest_principal(maximum(largest, band.strength)));
+        double const least = maximum(largest, band.strength);
+        double const most = maximum(largest, stress.tension(least, failure_.modulus, kappa_, mu_));
         if (most > largest) put(At::largest_stress, most);
         now = maximum(now, band.softening(most));
       }

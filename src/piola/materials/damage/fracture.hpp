@@ -11,8 +11,8 @@ namespace piola::inline PIOLA_BACKEND {
 struct Fracture {
   static constexpr std::array parameters{
       Parameter{"tensile_strength", "Pa",
-                "largest principal stress; beyond it a crack opens, which takes fracture_energy; in nodal", positive,
-                unbounded, "no cracks"},
+                "stress in uniaxial tension beyond which a crack opens, which takes fracture_energy; in nodal",
+                positive, unbounded, "no cracks"},
       Parameter{"fracture_energy", "J/m^2", "energy that a crack takes per area, with tensile_strength; in nodal",
                 positive, 0, "none"},
       Parameter{"fracture_displacement", "m",
@@ -62,6 +62,21 @@ PIOLA_FN double modulus_across_crack(int D, double kappa, double mu) {
   if (D == 1) return kappa + 4 * mu / 3;
   double const young = 9 * kappa * mu / (3 * kappa + mu), ratio = young / (2 * mu) - 1;
   return D == 2 ? young / (1 - ratio * ratio) : young;
+}
+
+/// 2 M w [Pa^2]: w the elastic energy per volume of the tensile principal stresses alone [J/m^3], M =
+/// modulus_across_crack. It is the square of the stress across a crack. Under tension along several axes a band of
+/// material holds more energy than the largest principal stress tells; with w as measure the crack takes the fracture
+/// energy there, too.
+PIOLA_FN double squared_tension(double const (&principal)[3], double modulus, double kappa, double mu) {
+  double const young = 9 * kappa * mu / (3 * kappa + mu), ratio = young / (2 * mu) - 1;
+  double sum = 0, squares = 0;
+  for (double const stress : principal) {
+    double const tensile = stress > 0 ? stress : 0;
+    sum += tensile;
+    squares += tensile * tensile;
+  }
+  return modulus / young * ((1 + ratio) * squares - ratio * sum * sum);
 }
 
 }  // namespace piola::inline PIOLA_BACKEND

@@ -11,11 +11,11 @@ void LateTargets::add(std::vector<char> const& marked) {
     if (marked[k] != 0 && known_[k] == no) known_[k] = since_last_evaluation;
 }
 
-double LateTargets::pushing_gap(Index contact, Index k, double gap) {
+double LateTargets::pushing_gap(Index contact, Index k, double gap, double first) {
   PIOLA_EXPECTS(has(k));
   if (known_[static_cast<std::size_t>(k)] == since_last_evaluation) {
-    depths_.set(contact, k, gap, 0);
-    return std::max(gap, 0.0);
+    depths_.set(contact, k, gap, first);
+    return std::max(gap, first);
   }
   return depths_.pushing(contact, k, gap);
 }

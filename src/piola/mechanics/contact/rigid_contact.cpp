@@ -89,8 +89,7 @@ void RigidContact::evaluate(Index k, std::size_t r, ContactModel& model, Contact
   forces.resultants().add_on_rigid(r, -1.0 * f, cross(plane.n, by_normal) - cross(plane.y - model.rigids[r].centre, f));
 }
 
-double RigidContact::energy_of(ContactModel const& model, Index point, std::size_t r) const {
-  if (!model.tests(point, r)) return 0;
+double RigidContact::energy_of_any(ContactModel const& model, Index point, std::size_t r) const {
   Distance const d = faces_.distance(model, point, r);
   return model.points[point].area * facing(-dot(model.points.plane(point).n, d.normal)).part *
          layer(d.value, layer_stiffness(model, point, r), 0.5 * model.points.surface_of(point).spacing).energy;

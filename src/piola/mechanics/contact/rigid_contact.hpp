@@ -17,7 +17,11 @@ class RigidContact {
   /// Computes the forces at x [m].
   void evaluate(ContactModel& model, std::vector<Vec<3>> const& x, ContactState& state);
   /// Energy stored by the contact of a point with a rigid shape [J].
-  double energy_of(ContactModel const& model, Index point, std::size_t rigid) const;
+  double energy_of(ContactModel const& model, Index point, std::size_t rigid) const {
+    return model.tests(point, rigid) ? energy_of_any(model, point, rigid) : 0;
+  }
+  /// As energy_of(), also of a point that was removed.
+  double energy_of_any(ContactModel const& model, Index point, std::size_t rigid) const;
   /// The step in which the fastest pair approaches by a tenth of a spacing [s]. v [m/s].
   double contact_time_step(ContactModel const& model, std::vector<Vec<3>> const& v) const;
 

@@ -22,8 +22,12 @@ void SurfaceContactSystem::exclude_pair(std::size_t body, std::size_t point, std
 void SurfaceContactSystem::drop(std::vector<char> const& lost) {
   if (lost.empty()) return;
   PIOLA_EXPECTS(lost.size() == ids().size());
-  for (Index k = 0; k < model_.points.count(); ++k)
-    if (lost[at(model_.points.particle(k))] != 0) model_.definition.remove(k);
+  for (Index k = 0; k < model_.points.count(); ++k) {
+    if (lost[at(model_.points.particle(k))] == 0 || model_.definition.is_removed(k)) continue;
+    for (std::size_t r = 0; r < model_.rigids.size() && !model_.points[k].image; ++r)
+      if (model_.tests(k, r)) dropped_.emplace_back(k, r);
+    model_.definition.remove(k);
+  }
   skin_.invalidate();
   drops_ = true;
 }
@@ -66,6 +70,8 @@ void SurfaceContactSystem::evaluate(std::vector<Vec<3>> const& x, double dt) {
   if (std::exchange(drops_, false)) {
     model_.points.place(x);
     bodies_.carry_energies(model_);
+    for (auto const& [k, r] : std::exchange(dropped_, {}))
+      late_rigids_.inherit(model_.points.particle(k), r, rigids_.energy_of_any(model_, k, r));
   }
   if (!skin_.is_valid(model_, x)) make_lists(x);
   model_.dt = dt;
@@ -79,7 +85,8 @@ void SurfaceContactSystem::evaluate(std::vector<Vec<3>> const& x, double dt) {
 
 void SurfaceContactSystem::evaluate_forces(std::vector<Vec<3>> const& x) {
   state_.forces.clear();
-  if (!model_.points.any_active()) return;
+  if (!model_.points.any_active() && !late_rigids_.any()) return;
+  late_rigids_.evaluate(model_, x, state_.forces);
   model_.points.place(x);
   bodies_.evaluate(model_, state_);
   rigids_.evaluate(model_, x, state_);
@@ -106,10 +113,12 @@ void SurfaceContactSystem::restore(std::vector<Vec<3>> const& x, std::vector<dou
   model_.points.place(x);
   shape_points_.find_gaps(model_);
   model_.set_last(x);
+  late_rigids_.evaluate(model_, x, state_.forces);
   state_.forces.clear();
   state_.forces.load(from);
   state_.friction.load(from);
   drops_ = false;
+  dropped_.clear();
 }
 
 std::vector<SurfaceContactSystem::ParticleContactState> SurfaceContactSystem::at_particles() const {
@@ -145,7 +154,8 @@ std::vector<SurfaceContactSystem::ParticleContactState> SurfaceContactSystem::at
 double SurfaceContactSystem::contact_time_step(std::vector<Vec<3>> const& v) const {
   PIOLA_EXPECTS(v.size() >= ids().size());
   return std::min({shape_points_.contact_time_step(model_, v), crossing_time_step(model_, v),
-                   bodies_.contact_time_step(model_, v), rigids_.contact_time_step(model_, v)});
+                   bodies_.contact_time_step(model_, v), rigids_.contact_time_step(model_, v),
+                   late_rigids_.contact_time_step(model_, v)});
 }
 
 std::size_t SurfaceContactSystem::bytes() const {

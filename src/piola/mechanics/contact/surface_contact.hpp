@@ -3,6 +3,7 @@
 #include "piola/mechanics/contact/body_contact.hpp"
 #include "piola/mechanics/contact/contact_model.hpp"
 #include "piola/mechanics/contact/contact_state.hpp"
+#include "piola/mechanics/contact/late_rigid_contact.hpp"
 #include "piola/mechanics/contact/rigid_contact.hpp"
 #include "piola/mechanics/contact/shape_point_contact.hpp"
 #include "piola/mechanics/contact/verlet_skin.hpp"
@@ -12,7 +13,8 @@
 namespace piola::contact {
 
 /// Contact between bodies, and between bodies and rigid shapes, by blended planes on oriented surface points. Input:
-/// positions; output: forces; both by index into ids().
+/// positions; output: forces; both by index into ids(). Particles that have lost their surface are in contact with
+/// rigid shapes in late_rigids(), with indices beyond those of ids() and forces of their own.
 class SurfaceContactSystem {
  public:
   SurfaceContactSystem(ParticleSet const& particles, std::vector<Surface> surfaces, std::vector<RigidSurface> rigids,
@@ -36,6 +38,8 @@ class SurfaceContactSystem {
   void drop(std::vector<char> const& lost);
   /// Energy stored by the contact of this point with `other` [J].
   double stored_at(std::size_t body, std::size_t point, std::size_t other) const;
+  LateRigidContact& late_rigids() { return late_rigids_; }
+  LateRigidContact const& late_rigids() const { return late_rigids_; }
   RigidSurface& rigid(std::size_t k) { return model_.rigids[k]; }
   RigidSurface const& rigid(std::size_t k) const { return model_.rigids[k]; }
   std::vector<RigidSurface>& rigids() { return model_.rigids; }
@@ -97,9 +101,11 @@ class SurfaceContactSystem {
   VerletSkin skin_;
   BodyContact bodies_;
   RigidContact rigids_;
+  LateRigidContact late_rigids_;
   ShapePointContact shape_points_;
   ContactState state_;
-  bool drops_ = false;  ///< points were removed since the last evaluation
+  bool drops_ = false;                                  ///< points were removed since the last evaluation
+  std::vector<std::pair<Index, std::size_t>> dropped_;  ///< these points, and rigid shapes that they were tested with
 };
 
 }  // namespace piola::contact
