@@ -103,9 +103,9 @@ class StateWriter {
   /// Saves a distributed table. `values`: the rows of this rank. Collective. The default gathers all rows on rank 0 and
   /// calls put() there.
   virtual void put_rows(std::string_view name, DistributedRows const& rows, std::span<double const> values);
-  /// Destination of the rows in put_rows(): rank 0; one file, then followed by end_rows(); or nowhere, since only the
-  /// size is needed.
-  enum class Rows { to_root, to_file, counted };
+  /// Destination of the rows in put_rows(): rank 0; one file; or none, where only the size or a hash is needed. A file
+  /// and a hash are followed by end_rows().
+  enum class Rows { to_root, to_file, counted, hashed };
   virtual Rows rows() const { return Rows::to_root; }
   virtual void end_rows() {}  ///< collective
 };

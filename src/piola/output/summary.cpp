@@ -56,6 +56,7 @@ std::string to_json(Summary const& s) {
                                   {"formulation", s.formulation},
                                   {"particles", s.particles},
                                   {"steps", s.steps},
+                                  {"bits", s.bits},
                                   {"end_time", s.end_time},
                                   {"wall_seconds", s.wall_seconds},
                                   {"stages_per_second", s.stages_per_second},

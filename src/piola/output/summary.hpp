@@ -46,6 +46,7 @@ struct Summary {
   std::string title, version, formulation;
   Identity identity;  ///< of the run
   std::int64_t particles = 0, steps = 0;
+  std::string bits;              ///< hash of the last state, see StateHash
   double end_time = 0;           ///< s, time reached
   double wall_seconds = 0;       ///< over all parts of a resumed run
   double stages_per_second = 0;  ///< particle-stages per second of the steps alone

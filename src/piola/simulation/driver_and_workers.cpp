@@ -7,6 +7,7 @@
 #include "piola/output/collective_table_writer.hpp"
 #include "piola/output/frames.hpp"
 #include "piola/simulation/distributed_state.hpp"
+#include "piola/simulation/state_hash.hpp"
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -193,7 +194,7 @@ class DriverProxy final : public Formulation, public Observables {
     send({.what = Command::What::save, .code = static_cast<std::int64_t>(writer.rows())});
     DeferredErrorWriter lasting(writer);
     own().save(lasting);
-    if (writer.rows() == StateWriter::Rows::to_file) lasting.end_rows();
+    if (writer.rows() != StateWriter::Rows::to_root) lasting.end_rows();
     lasting.raise();
   }
   void load(StateReader& reader) override {
@@ -226,7 +227,8 @@ void save_with_first(Formulation const& formulation, StateWriter::Rows rows) {
   NullStateWriter ignored;
   StateSize size;
   LocalRowsWriter part;
-  StateWriter* const writers[]{&ignored, &part, &size};
+  StateHash hash;
+  StateWriter* const writers[]{&ignored, &part, &size, &hash};
   StateWriter& writer = *writers[static_cast<std::size_t>(rows)];
   formulation.save(writer);
   writer.end_rows();

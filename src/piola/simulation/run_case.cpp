@@ -17,6 +17,7 @@
 #include "piola/simulation/picture_observer.hpp"
 #include "piola/simulation/restore.hpp"
 #include "piola/simulation/run_summary.hpp"
+#include "piola/simulation/state_hash.hpp"
 #include "piola/simulation/step_observer.hpp"
 #include <algorithm>
 #include <cmath>
@@ -120,6 +121,12 @@ std::int64_t size_of_state(Formulation const& formulation) {
   return static_cast<std::int64_t>(size.numbers() * sizeof(double));
 }
 
+std::string hash_of_state(Formulation const& formulation) {
+  StateHash hash;
+  formulation.save(hash);
+  return hash.text();
+}
+
 /// Resumes a run: restores the state of the newest valid checkpoint, with permitted changes of the case that do not
 /// affect the state at a given time.
 TimeState begin_again(Simulation& s, RunOptions const& options, RunLog& journal, RunObservers& observers) {
@@ -208,6 +215,7 @@ std::string repartition_text(RepartitionStatistics const& repartition_statistics
 /// Adds the results of observers and ranks over the whole run.
 void add_observed(Summary& summary, Simulation const& s, RunObservers const& observers, RunLog& journal) {
   summary.guards = observers.guards.report();
+  summary.bits = hash_of_state(*s.formulation);
   summary.ranks = traffic_on_ranks();
   if (!summary.ranks.empty()) summary.repartition_statistics = s.formulation->statistics().repartition;
   if (auto const& repartition_statistics = summary.repartition_statistics;
