@@ -43,6 +43,11 @@ nlohmann::ordered_json identity_json(Identity const& identity) {
           {"machine", identity.backend}};
 }
 
+nlohmann::ordered_json cracks_json(Summary::Cracks const& cracks) {
+  return {
+      {"area", cracks.area}, {"energy_per_area", cracks.energy}, {"fracture_energy_of_material", cracks.of_material}};
+}
+
 }  // namespace
 
 std::string to_json(Summary const& s) {
@@ -69,10 +74,7 @@ std::string to_json(Summary const& s) {
   add_ranks(s, document);
   if (s.linear_drift && s.angular_drift)
     document["momentum"] = {{"linear_drift", *s.linear_drift}, {"angular_drift", *s.angular_drift}};
-  if (s.cracks)
-    document["cracks"] = {{"area", s.cracks->area},
-                          {"energy_per_area", s.cracks->energy},
-                          {"fracture_energy_of_material", s.cracks->of_material}};
+  if (s.cracks) document["cracks"] = cracks_json(*s.cracks);
   for (auto const& [unit, value] : s.scales) document["scales"][unit] = value;
   if (s.relaxation) {
     document["relaxation"] = {
