@@ -60,12 +60,12 @@ void LateRigidContact::evaluate(ContactModel const& model, std::vector<Vec<3>> c
 }
 
 /// The gap by which a target pushes when it joins [m]: that with the energy that its surface stored.
-double LateRigidContact::first_gap(ContactModel const& model, Particle const& target, std::size_t r,
-                                   PairValues const& inherited) const {
-  auto const stored = inherited.find({target.at, static_cast<Index>(r)});
+double LateRigidContact::first_gap(ContactModel const& model, Particle const& target, std::size_t rigid,
+                                   PairValues const& inherited) {
+  auto const stored = inherited.find({target.at, static_cast<Index>(rigid)});
   if (stored == inherited.end()) return 0;
   double const spacing = model.points.surfaces()[target.body].spacing;
-  return gap_of_layer(stored->second * spacing / target.volume, stiffness_of(model, target.body, r), 0.5 * spacing);
+  return gap_of_layer(stored->second * spacing / target.volume, stiffness_of(model, target.body, rigid), 0.5 * spacing);
 }
 
 void LateRigidContact::push(ContactModel const& model, Near const& target, double gap, ContactForces& sums) {

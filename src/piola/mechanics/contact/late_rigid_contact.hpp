@@ -45,9 +45,9 @@ class LateRigidContact {
     std::size_t rigid;
     Vec<3> y, normal;  ///< place [m]; outward normal of the shape
   };
-  double first_gap(ContactModel const& model, Particle const& target, std::size_t rigid,
-                   PairValues const& inherited) const;
-  void push(ContactModel const& model, Near const& target, double distance, ContactForces& sums);
+  static double first_gap(ContactModel const& model, Particle const& target, std::size_t rigid,
+                          PairValues const& inherited);
+  void push(ContactModel const& model, Near const& target, double gap, ContactForces& sums);
 
   std::vector<Particle> particles_;  ///< that may become targets
   std::vector<Particle> targets_;    ///< ascending
