@@ -52,12 +52,13 @@ for _ in $(seq 100); do [ -n "$(newest $folder)" ] && break; sleep 0.05; done
 first=$(newest $folder)
 check test -s "$first"
 kill -s USR1 $child
-for _ in $(seq 100); do [ "$(newest $folder)" != "$first" ] && break; sleep 0.05; done
+asked() { grep -c 'checkpoint at step .* as asked' $folder/log.txt; }  # the log follows the file
+for _ in $(seq 100); do [ "$(asked)" -eq 2 ] && break; sleep 0.05; done
 check test "$(newest $folder)" != "$first"
 check kill -s 0 $child
 kill -s KILL $child
 ended 137
-check test "$(grep -c 'checkpoint at step .* as asked' $folder/log.txt)" -eq 2
+check test "$(asked)" -eq 2
 expect 4 "" "$program" resume $folder --wall-time "1 s"
 
 # Before a run steps, requests for checkpoints are kept, not fatal; afterwards the bits are those of a quiet run.

@@ -18,7 +18,7 @@ TEST(Summary, HasTheAgreedKeysInOrder) {
   std::vector<std::string> keys;
   for (auto const& item : json.items()) keys.push_back(item.key());
   EXPECT_EQ(keys, (std::vector<std::string>{"status", "title", "version", "identity", "formulation", "particles",
-                                            "steps", "end_time", "wall_seconds", "stages_per_second", "threads",
+                                            "steps", "bits", "end_time", "wall_seconds", "stages_per_second", "threads",
                                             "energy", "momentum", "quantities", "guards", "warnings"}));
   EXPECT_TRUE(json["energy"].contains("initial") && json["energy"].contains("final") &&
               json["energy"].contains("max_increase") && json["energy"].contains("max_decrease"));
