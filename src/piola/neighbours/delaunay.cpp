@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
+#include "piola/math/hash.hpp"
 #include "piola/neighbours/delaunay_checks.hpp"
 #include "piola/neighbours/delaunay_hull.hpp"
 #include "piola/neighbours/delaunay_peel.hpp"
@@ -23,10 +24,7 @@ struct Enclosed {
 
 /// Hash of a point number in [0, 1), equal on every machine (multiplications and shifts).
 double hash(std::uint64_t number) {
-  number = (number + 1) * 0x9E3779B97F4A7C15U;
-  number = (number ^ (number >> 30)) * 0xBF58476D1CE4E5B9U;
-  number = (number ^ (number >> 27)) * 0x94D049BB133111EBU;
-  return static_cast<double>((number ^ (number >> 31)) >> 11) * 0x1p-53;
+  return static_cast<double>(hash_mix((number + 1) * 0x9E3779B97F4A7C15U) >> 11) * 0x1p-53;
 }
 
 void add_far_corners(Points& points, int dimension) {

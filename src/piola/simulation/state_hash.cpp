@@ -2,27 +2,21 @@
 #include "piola/simulation/state_hash.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/domain/communicator.hpp"
+#include "piola/math/hash.hpp"
 #include <bit>
 #include <fmt/format.h>
 
 namespace piola {
 namespace {
 
-/// Finaliser of SplitMix64 (G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014).
-std::uint64_t mixed(std::uint64_t bits) {
-  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebULL;
-  return bits ^ (bits >> 31);
-}
-
 std::uint64_t seed_of(std::string_view name) {
   std::uint64_t seed = 0;
-  for (char const letter : name) seed = mixed(seed + static_cast<unsigned char>(letter) + 1);
+  for (char const letter : name) seed = hash_mix(seed + static_cast<unsigned char>(letter) + 1);
   return seed;
 }
 
 std::uint64_t hash_of(std::uint64_t seed, std::uint64_t place, double value) {
-  return mixed(mixed(seed + place) + std::bit_cast<std::uint64_t>(value));
+  return hash_mix(hash_mix(seed + place) + std::bit_cast<std::uint64_t>(value));
 }
 
 struct HashSum {

@@ -76,8 +76,8 @@ double mean_stretch(NodalBody const& body, Index slot) {
   return count > 0 ? std::sqrt(sum / count) : 1;
 }
 
-/// Whether a failed cell lies among neighbours that have parted, or been pressed into each other, so that its gradients
-/// and its surface do not serve any more.
+/// Whether the gradients and the surface of a failed cell are without use, because its neighbours have parted or were
+/// pressed into each other. Gradients tell it of a broken cell, the neighbours themselves of an Eulerian one.
 bool is_torn(NodalBody const& body, Index slot) {
   if (body.state().has.converts)
     return body.failure_value(slot, FailureLayout::volume_factor) > least_torn &&

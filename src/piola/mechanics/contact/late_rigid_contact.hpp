@@ -16,8 +16,8 @@ class LateRigidContact {
   void set_particles(std::size_t body, std::vector<Index> const& at, std::vector<double> const& volumes);
   /// Makes marked particles of these targets, by index. Each pushes from its depth in the next evaluation on.
   void add_targets(std::vector<char> const& marked);
-  /// Adds to the energy that the surface of a particle stored with a rigid shape when it was lost [J]; with it the
-  /// particle pushes in the next evaluation.
+  /// Adds energy [J] that a surface point of particle k stored with a rigid shape when the point was removed. In the
+  /// next evaluation the particle stores the sum of these energies.
   void inherit(Index k, std::size_t rigid, double energy) { inherited_[{k, static_cast<Index>(rigid)}] += energy; }
   /// Masses of all particles by index, at least those of the targets [kg].
   void set_masses(std::vector<double> const& masses);

@@ -15,7 +15,7 @@ class LateTargets {
   void add(std::vector<char> const& marked);
   bool has(Index k) const { return static_cast<std::size_t>(k) < known_.size() && known_[static_cast<std::size_t>(k)]; }
   /// Returns the gap [m] by which a target pushes whose gap is `gap` [m] in contact number `contact`. Call it in each
-  /// evaluation for all targets whose gap may be negative. first: by which a target pushes when it joins.
+  /// evaluation for all targets whose gap may be negative. first: gap by which a target pushes when it joins [m].
   double pushing_gap(Index contact, Index k, double gap, double first = 0);
   /// Ends an evaluation.
   void settle();
