@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/errors.hpp"
 #include "piola/observers/results_folder.hpp"
-#include "piola/simulation/driver_and_workers.hpp"
 #include "commands.hpp"
 #include "run_support.hpp"
 #include "set_up_watch.hpp"
@@ -34,7 +33,6 @@ int resume(ResumeArguments const& options) {
                                   .unfinished = folder_for_unfinished(options.folder),
                                   .of_results = true},
                                  {.wall_time = wall_time, .quiet = options.quiet});
-  if (comm::rank() != 0) return run_worker(simulation);
   return run_and_report(simulation, {.folder = options.folder, .resume = true, .force = false, .wall_time = wall_time},
                         options.quiet);
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/observers/results_folder.hpp"
-#include "piola/simulation/driver_and_workers.hpp"
 #include "commands.hpp"
 #include "run_support.hpp"
 #include "set_up_watch.hpp"
@@ -26,7 +25,6 @@ int run(RunArguments const& options) {
                                   .unfinished = folder_for_unfinished(folder),
                                   .pictures = !options.no_pictures},
                                  {.wall_time = wall_time, .quiet = options.quiet});
-  if (comm::rank() != 0) return run_worker(simulation);
   RunOptions const where{
       .folder = folder, .resume = false, .force = options.force, .case_file = file, .wall_time = wall_time};
   return run_and_report(simulation, where, options.quiet);

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/base/errors.hpp"
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace piola::app {
-
-/// Exit codes that scripts rely on.
-enum ExitCode : int { completed = 0, internal_error = 1, bad_input = 2, physics_failed = 3, stopped_by_signal = 4 };
 
 /// Action of the chosen command; returns the exit code. Errors are thrown and turned into messages and codes by main.
 using Action = std::function<int()>;

@@ -2,65 +2,53 @@
 #include "piola/base/errors.hpp"
 #include "piola/base/stopped.hpp"
 #include "piola/base/version.hpp"
-#include "piola/domain/communicator.hpp"
+#include "piola/domain/error_agreement.hpp"
 #include "piola/exec/heap_tuning.hpp"
-#include "piola/simulation/driver_and_workers.hpp"
 #include "commands.hpp"
 #include "name_hints.hpp"
 #include "signals.hpp"
 #include "sleep.hpp"
 #include "streams.hpp"
+#include <chrono>
 #include <exception>
-#include <filesystem>
 #include <fmt/format.h>
 #include <sstream>
+#include <thread>
 
 namespace {
 
 using namespace piola;
 using app::print_message;
 
-/// One rank speaks for all of them.
-int report(std::string const& message, int code) {
-  auto const trouble = shut_down({code, message});
-  if (trouble) {
-    print_message("piola: {}\n", trouble->message);
-    return trouble->code;
+/// Reports an error of this rank and returns the exit code. On several ranks one speaks for all: the lowest one with an
+/// error where all ranks end in time; otherwise they wait for this one, which then ends them.
+int report(ErrorReport const& error) {
+  constexpr double timeout = 5;  // s
+  if (auto const first = comm::agree_within(timeout, error)) {
+    print_message("piola: {}\n", first->message);
+    return first->code;
   }
+  // Lower ranks may have an error, too, and only one is to print.
+  std::this_thread::sleep_for(std::chrono::milliseconds(300 * comm::rank()));
   app::set_quiet(false);
-  print_message("piola: {} (on rank {}, which ends all {})\n", message, comm::rank(), comm::size());
-  comm::abort_all(code);
-  return code;
+  print_message("piola: {} (on rank {}, which ends all {})\n", error.message, comm::rank(), comm::size());
+  comm::abort_all(error.code);
+  return error.code;
 }
 
 /// Runs the chosen command; every error becomes one message and the exit code that scripts rely on.
 int perform(app::Action const& action) {
   try {
-    int const code = action();
-    (void)shut_down({code, {}});
-    return code;
+    return action();
   } catch (comm::CollectiveError const& error) {
     print_message("piola: {}\n", error.what());
     return error.code();
   } catch (SetUpStopped const& error) {
     print_message("piola: {}\n", error.what());
-    if (comm::is_parallel()) comm::abort_all(app::stopped_by_signal);  // the other ranks are still in their set-up
-    return app::stopped_by_signal;
-  } catch (InputError const& error) {
-    return report(error.what(), app::bad_input);
-  } catch (PhysicsError const& error) {
-    return report(error.what(), app::physics_failed);
-  } catch (FileError const& error) {
-    return report(error.what(), app::internal_error);
-  } catch (std::filesystem::filesystem_error const& error) {
-    return report(
-        fmt::format("{}: cannot be used, {} - check the path", error.path1().string(), error.code().message()),
-        app::internal_error);
-  } catch (std::bad_alloc const&) {
-    return report("not enough memory for this many particles - choose fewer ('piola check' reports how much is needed)",
-                  app::internal_error);
-  } catch (std::exception const& error) {
-    return report(fmt::format("internal error, please report it: {}", error.what()), app::internal_error);
+    if (comm::is_parallel()) comm::abort_all(stopped_by_signal);  // the other ranks are still in their set-up
+    return stopped_by_signal;
+  } catch (...) {
+    return report(report_of(std::current_exception()));
   }
 }
 
@@ -71,7 +59,7 @@ int explain(CLI::App const& program, CLI::ParseError const& error, std::span<cha
   std::string const hints = asked ? "" : app::name_hints(program, arguments);
   app::write_out(out.str());
   app::write_err(hints.empty() ? err.str() : hints + "Run with --help for more information.\n");
-  return asked ? app::with_output(app::completed) : app::bad_input;
+  return asked ? app::with_output(completed) : bad_input;
 }
 
 /// The given action; on several ranks, for commands other than run and resume, one that refuses.
@@ -80,7 +68,7 @@ app::Action action_on_ranks(CLI::App const& program, app::Action action) {
   return []() -> int {
     print_message(
         "piola: several ranks (mpirun) are for 'piola run' and 'piola resume' - start this command without mpirun\n");
-    return app::bad_input;
+    return bad_input;
   };
 }
 

@@ -3,6 +3,7 @@
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
 #include "piola/base/units.hpp"
+#include "piola/domain/communicator.hpp"
 #include "commands.hpp"
 #include "signals.hpp"
 #include "streams.hpp"
@@ -150,6 +151,7 @@ double read_wall_time(std::string const& text) {
 }
 
 int run_and_report(Simulation& simulation, RunOptions options, bool quiet) {
+  quiet = quiet || comm::rank() != 0;
   options.started = program_start;
   options.checkpoint_request = &checkpoint_signal;
   if (!quiet) write_out(start_report(simulation, options.folder));

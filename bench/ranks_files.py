@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Measures the cost of frames and checkpoints of a run on ranks, and the part that rank 0 spends gathering values of
-other ranks: a cube of N^3 particles, ten steps, without output, with a frame and with a checkpoint after each step.
+"""Measures the cost of frames and checkpoints of a run on ranks: a cube of N^3 particles, ten steps, without output,
+with a frame and with a checkpoint after each step.
 
 Usage: bench/ranks_files.py PROGRAM [N [RANKS,RANKS... [REPEATS]]]        (default: 60, 1,2,4, 3; medians)
 PROGRAM must know MPI (PIOLA_MPI, or piola-mpi of PIOLA_MPI_BESIDE). Ranks have one thread each.
@@ -20,7 +20,7 @@ EVERY = {"nothing": (), "frames": ("output.frames.every",), "checkpoints": ("out
 
 
 def run(program, ranks, case, folder, kind, step):
-    """Wall time and that of gathering [s]."""
+    """Wall time [s]."""
     words = ["mpirun", "--oversubscribe", "--allow-run-as-root", "--bind-to", "none", "--mca", "plm", "isolated", "-n", str(ranks)]
     words += [program, "run", case, "--out", folder, "--force", "--quiet", "--no-pictures"]
     for key in ("output.frames.every", "output.checkpoints.every", "output.history.every"):
@@ -28,8 +28,7 @@ def run(program, ranks, case, folder, kind, step):
     words += ["--set", f'run.end="{STEPS * step} s"', "--set", f'run.max_step="{step} s"']
     subprocess.run(words, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                    env={**os.environ, "OMP_NUM_THREADS": "1", "OMP_WAIT_POLICY": "passive"})
-    summary = json.loads((folder / "summary.json").read_text())
-    return summary["wall_seconds"], summary.get("seconds", {}).get("gather", 0.0)
+    return json.loads((folder / "summary.json").read_text())["wall_seconds"]
 
 
 program, n = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 60
@@ -40,9 +39,8 @@ with tempfile.TemporaryDirectory() as work:
     case, folder = Path(work) / "case.toml", Path(work) / "results"
     case.write_text(CASE.format(n=n, formulation="jst_sph", end=1, more=""))
     for ranks in counts:
-        taken = {kind: [run(program, ranks, case, folder, kind, step) for _ in range(repeats)] for kind in EVERY}
-        wall, gathered = ({kind: statistics.median(pair[k] for pair in taken[kind]) for kind in EVERY} for k in (0, 1))
+        wall = {kind: statistics.median(run(program, ranks, case, folder, kind, step) for _ in range(repeats))
+                for kind in EVERY}
         print(f"{ranks} ranks: a step {1e3 * wall['nothing'] / STEPS:.0f} ms; " + "; ".join(
-            f"{kind}, each {1e3 * (wall[kind] - wall['nothing']) / STEPS:.0f} ms, of it gathering "
-            f"{1e3 * (gathered[kind] - gathered['nothing']) / STEPS:.0f} ms" for kind in ("frames", "checkpoints")),
+            f"{kind}, each {1e3 * (wall[kind] - wall['nothing']) / STEPS:.0f} ms" for kind in ("frames", "checkpoints")),
             flush=True)

@@ -44,7 +44,7 @@ TEST(Summary, HasNoMomentumWhereItMeansNothing) {
 TEST(Summary, HasWhatRanksSaidWhereThereAreSeveral) {
   EXPECT_FALSE(nlohmann::json::parse(to_json(Summary{})).contains("ranks"));
   Summary s;
-  s.ranks = {{8, 1e6, 7, 1e-3, 2e-3, 3e-3}, {4, 2e6, 7, 0, 0, 0}};
+  s.ranks = {{8, 1e6, 7, 1e-3, 2e-3, 0}, {4, 2e6, 7, 0, 0, 3e6}};
   auto const ranks = nlohmann::json::parse(to_json(s))["ranks"];
   ASSERT_EQ(ranks.size(), 2U);
   EXPECT_EQ(ranks[0]["messages"], 8);
@@ -52,7 +52,7 @@ TEST(Summary, HasWhatRanksSaidWhereThereAreSeveral) {
   EXPECT_EQ(ranks[0]["collectives"], 7);
   EXPECT_EQ(ranks[0]["message_seconds"], 1e-3);
   EXPECT_EQ(ranks[0]["collective_seconds"], 2e-3);
-  EXPECT_EQ(ranks[0]["idle_seconds"], 3e-3);
+  EXPECT_EQ(ranks[1]["replicated_bytes"], 3e6);
 }
 
 TEST(Summary, HasSecondsWhereTheFormulationTellsThem) {

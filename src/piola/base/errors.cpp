@@ -2,6 +2,8 @@
 #include "piola/base/errors.hpp"
 #include "piola/base/contracts.hpp"
 #include <algorithm>
+#include <filesystem>
+#include <new>
 #include <numeric>
 
 namespace piola {
@@ -46,6 +48,28 @@ void Problems::raise_if_any() const {
   std::string message;
   for (std::string const& line : lines_) message += (message.empty() ? "" : "\n") + line;
   throw InputError(message);
+}
+
+ErrorReport report_of(std::exception_ptr const& error) {
+  PIOLA_EXPECTS(error != nullptr);
+  try {
+    std::rethrow_exception(error);
+  } catch (InputError const& e) {
+    return {bad_input, e.what()};
+  } catch (PhysicsError const& e) {
+    return {physics_failed, e.what()};
+  } catch (FileError const& e) {
+    return {internal_error, e.what()};
+  } catch (std::filesystem::filesystem_error const& e) {
+    return {internal_error, e.path1().string() + ": cannot be used, " + e.code().message() + " - check the path"};
+  } catch (std::bad_alloc const&) {
+    return {internal_error,
+            "not enough memory for this many particles - choose fewer ('piola check' reports how much is needed)"};
+  } catch (std::exception const& e) {
+    return {internal_error, std::string("internal error, please report it: ") + e.what()};
+  } catch (...) {
+    return {internal_error, "internal error of an unknown kind, please report it"};
+  }
 }
 
 }  // namespace piola

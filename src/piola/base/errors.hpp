@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <exception>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -48,5 +49,16 @@ class PhysicsError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Exit codes that scripts rely on.
+enum ExitCode : int { completed = 0, internal_error = 1, bad_input = 2, physics_failed = 3, stopped_by_signal = 4 };
+
+/// How an error ends the program.
+struct ErrorReport {
+  int code = 0;  ///< an ExitCode; 0: there is no error
+  std::string message;
+};
+/// The exit code and the message of an exception.
+ErrorReport report_of(std::exception_ptr const& error);
 
 }  // namespace piola

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/base/errors.hpp"
 #include "piola/math/lanes.hpp"
 #include <cmath>
 #include <cstddef>
@@ -89,22 +90,23 @@ struct Traffic {
 };
 Traffic traffic();
 
-/// Error that stopped a rank.
-struct RankError {
-  int code = 0;  ///< exit code; 0: there is none
-  std::string message;
-};
+/// Flags of rank 0 for all ranks, which travel with the next allreduce() of one item and need no message of their own.
+/// send_flags() is called before a step, received_flags() after it; on other ranks `own` has no effect.
+void send_flags(unsigned own);
+/// The flags of rank 0. If no allreduce() has carried them, they travel now.
+unsigned received_flags();
+
 /// Thrown on all ranks when at least one rank has failed. Carries the message and exit code of the lowest failed rank.
 class CollectiveError : public std::runtime_error {
  public:
-  explicit CollectiveError(RankError const& trouble) : std::runtime_error(trouble.message), code_(trouble.code) {}
+  explicit CollectiveError(ErrorReport const& trouble) : std::runtime_error(trouble.message), code_(trouble.code) {}
   int code() const { return code_; }
 
  private:
   int code_;
 };
 /// Collective. Returns the error of the lowest rank that reports one (code != 0), on all ranks; code 0 if none does.
-RankError agree(RankError const& own);
+ErrorReport agree(ErrorReport const& own);
 /// Ends all ranks (MPI_Abort). Not collective. Returns only if there is one rank.
 void abort_all(int code);
 

@@ -6,27 +6,38 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
+#include <cstring>
 #include <initializer_list>
 #include <limits>
 #include <map>
 #include <mpi.h>
 #include <numeric>
 #include <thread>
+#include <utility>
 
 namespace piola::comm {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Flags of rank 0 on their way to all ranks.
+struct Flags {
+  unsigned value = 0;
+  bool wait = false;    // they have not travelled yet
+  bool travel = false;  // behind the item of the running allreduce
+};
+
 struct World {
   bool started = false;
   int own = 0, count = 1;
-  MPI_Comm orders = MPI_COMM_NULL, troubles = MPI_COMM_NULL;  // all ranks, too
+  MPI_Comm troubles = MPI_COMM_NULL;  // all ranks, too
   MPI_Op op = MPI_OP_NULL;
   Combine combine = nullptr;  // combine function of the running allreduce; global because MPI_Op callbacks take no user
                               // data
   std::size_t bytes = 0;      // per item
+  Flags flags;
   std::map<std::size_t, MPI_Datatype> types;  // MPI types of items, by size in bytes
   Traffic traffic;
   CommStatistics spent;
@@ -68,6 +79,12 @@ void combine_items(void* others, void* mine, int* count, MPI_Datatype*) {
     std::size_t const at = static_cast<std::size_t>(k) * world.bytes;
     world.combine(static_cast<char const*>(others) + at, static_cast<char*>(mine) + at);
   }
+  if (!world.flags.travel) return;
+  unsigned flags[2];
+  std::memcpy(&flags[0], static_cast<char const*>(others) + world.bytes, sizeof flags[0]);
+  std::memcpy(&flags[1], static_cast<char*>(mine) + world.bytes, sizeof flags[1]);
+  flags[1] |= flags[0];
+  std::memcpy(static_cast<char*>(mine) + world.bytes, &flags[1], sizeof flags[1]);
 }
 
 MPI_Datatype type_of(std::size_t bytes) {
@@ -93,19 +110,17 @@ std::vector<int> starts_of(std::vector<int> const& counts) {
   return starts;
 }
 
-void tell_all(void* data, std::size_t bytes, MPI_Comm ranks, double& seconds) {
-  if (!is_parallel()) return;
-  Timer const timer(seconds);
-  world.spent.collectives += 1;
+/// Allreduce of items of world.bytes bytes by world.combine.
+void reduce_items(void* items, std::size_t count, std::size_t bytes) {
   MPI_Request request;
-  MPI_Ibcast(data, static_cast<int>(bytes), MPI_BYTE, 0, ranks, &request);
+  MPI_Iallreduce(MPI_IN_PLACE, items, static_cast<int>(count), type_of(bytes), world.op, MPI_COMM_WORLD, &request);
   wait_for(request);
 }
 
 /// Broadcasts the error of rank `lowest`, the lowest one that has failed.
-RankError trouble_of(int lowest, RankError const& own) {
+ErrorReport trouble_of(int lowest, ErrorReport const& own) {
   if (lowest == world.count) return {};
-  RankError r = own;
+  ErrorReport r = own;
   int sizes[2] = {own.code, static_cast<int>(own.message.size())};
   MPI_Bcast(sizes, 2, MPI_INT, lowest, world.troubles);
   r.code = sizes[0];
@@ -131,7 +146,6 @@ void start() {
   world.started = true;
   MPI_Comm_rank(MPI_COMM_WORLD, &world.own);
   MPI_Comm_size(MPI_COMM_WORLD, &world.count);
-  MPI_Comm_dup(MPI_COMM_WORLD, &world.orders);
   MPI_Comm_dup(MPI_COMM_WORLD, &world.troubles);
   MPI_Op_create(&combine_items, 1, &world.op);
 }
@@ -140,7 +154,6 @@ void finish() {
   if (!world.started) return;
   for (auto& [bytes, type] : world.types) MPI_Type_free(&type);
   MPI_Op_free(&world.op);
-  MPI_Comm_free(&world.orders);
   MPI_Comm_free(&world.troubles);
   MPI_Finalize();
   world = {};
@@ -158,9 +171,26 @@ void allreduce_bytes(void* items, std::size_t count, std::size_t bytes, Combine 
   world.combine = combine;
   world.bytes = bytes;
   world.spent.collectives += 1;
-  MPI_Request request;
-  MPI_Iallreduce(MPI_IN_PLACE, items, static_cast<int>(count), type_of(bytes), world.op, MPI_COMM_WORLD, &request);
-  wait_for(request);
+  if (count != 1 || !world.flags.wait) return reduce_items(items, count, bytes);
+  // One item, with the flags behind it.
+  static std::vector<std::byte> both;
+  both.resize(bytes + sizeof world.flags.value);
+  std::memcpy(both.data(), items, bytes);
+  std::memcpy(both.data() + bytes, &world.flags.value, sizeof world.flags.value);
+  world.flags.travel = true;
+  reduce_items(both.data(), 1, both.size());
+  world.flags.wait = world.flags.travel = false;
+  std::memcpy(items, both.data(), bytes);
+  std::memcpy(&world.flags.value, both.data() + bytes, sizeof world.flags.value);
+}
+
+void send_flags(unsigned own) {
+  world.flags = {.value = is_parallel() && world.own != 0 ? 0 : own, .wait = is_parallel()};
+}
+
+unsigned received_flags() {
+  if (std::exchange(world.flags.wait, false)) broadcast_bytes(&world.flags.value, sizeof world.flags.value);
+  return world.flags.value;
 }
 
 void allreduce_max(double& value) {
@@ -216,11 +246,12 @@ void allgather(std::span<double> values, std::span<std::size_t const> starts) {
 
 void broadcast_bytes(void* data, std::size_t bytes) {
   PIOLA_EXPECTS(bytes <= most_items && (data != nullptr || bytes == 0));
-  tell_all(data, bytes, MPI_COMM_WORLD, world.spent.in_collectives);
-}
-void broadcast_command(void* data, std::size_t bytes) {
-  PIOLA_EXPECTS(bytes <= most_items && (data != nullptr || bytes == 0));
-  tell_all(data, bytes, world.orders, world.spent.waiting_for_commands);
+  if (!is_parallel()) return;
+  Timer const timer(world.spent.in_collectives);
+  world.spent.collectives += 1;
+  MPI_Request request;
+  MPI_Ibcast(data, static_cast<int>(bytes), MPI_BYTE, 0, MPI_COMM_WORLD, &request);
+  wait_for(request);
 }
 
 bool all_equal(std::uint64_t number) {
@@ -298,9 +329,9 @@ void send_to(int from, int to, std::span<double> values) {
 Traffic traffic() { return world.traffic; }
 CommStatistics comm_statistics() { return world.spent; }
 
-RankError agree(RankError const& own) { return *agree_within(std::numeric_limits<double>::infinity(), own); }
+ErrorReport agree(ErrorReport const& own) { return *agree_within(std::numeric_limits<double>::infinity(), own); }
 
-std::optional<RankError> agree_within(double seconds, RankError const& own) {
+std::optional<ErrorReport> agree_within(double seconds, ErrorReport const& own) {
   PIOLA_EXPECTS(seconds > 0);
   if (!is_parallel()) return own;
   // Static: a rank that times out leaves the request pending, and MPI may write to its buffer until the process ends.

@@ -10,13 +10,17 @@ void start() {}
 void finish() {}
 int rank() { return 0; }
 int size() { return 1; }
+namespace {
+unsigned flags = 0;
+}
+void send_flags(unsigned own) { flags = own; }
+unsigned received_flags() { return flags; }
 void allreduce_bytes(void*, std::size_t, std::size_t, Combine) {}
 void allreduce_max(double&) {}
 void allreduce_or(std::span<double>) {}
 std::vector<double> gather(std::span<double const> values) { return {values.begin(), values.end()}; }
 void allgather(std::span<double>, std::span<std::size_t const>) {}
 void broadcast_bytes(void*, std::size_t) {}
-void broadcast_command(void*, std::size_t) {}
 bool all_equal(std::uint64_t) { return true; }
 std::vector<std::vector<Index>> alltoall(std::vector<std::vector<Index>> const& to) {
   PIOLA_EXPECTS(to.size() == 1);
@@ -31,8 +35,8 @@ void exchange(std::span<Message const>, std::span<Message const>) {}
 void send_to(int, int, std::span<double>) {}
 Traffic traffic() { return {}; }
 CommStatistics comm_statistics() { return {}; }
-RankError agree(RankError const& own) { return own; }
-std::optional<RankError> agree_within(double, RankError const& own) { return own; }
+ErrorReport agree(ErrorReport const& own) { return own; }
+std::optional<ErrorReport> agree_within(double, ErrorReport const& own) { return own; }
 void abort_all(int) {}
 
 }  // namespace piola::comm

@@ -93,21 +93,18 @@ struct RunStatistics {
   std::optional<RepartitionStatistics> repartition;  ///< empty if the formulation cannot repartition
 };
 
-/// Receives the evolved state by name, in Id order, as bit-exact doubles.
+/// Receives the evolved state by name, in Id order, as bit-exact doubles. On several ranks all members are collective.
 class StateWriter {
  public:
   virtual ~StateWriter() = default;
+  /// Saves values that all ranks know. Those of rank 0 are saved.
   virtual void put(std::string_view name, std::span<double const> values) = 0;
   /// Saves values whose number the reader does not know: `count` names that number.
   void put_sized(std::string_view count, std::string_view name, std::span<double const> values);
-  /// Saves a distributed table. `values`: the rows of this rank. Collective. The default gathers all rows on rank 0 and
-  /// calls put() there.
+  /// Saves a distributed table. `values`: the rows of this rank. The default gathers all rows on rank 0 and calls put()
+  /// there.
   virtual void put_rows(std::string_view name, DistributedRows const& rows, std::span<double const> values);
-  /// Destination of the rows in put_rows(): rank 0; one file; or none, where only the size or a hash is needed. A file
-  /// and a hash are followed by end_rows().
-  enum class Rows { to_root, to_file, counted, hashed };
-  virtual Rows rows() const { return Rows::to_root; }
-  virtual void end_rows() {}  ///< collective
+  virtual void end_rows() {}  ///< called after the last value
 };
 
 /// Counts the saved values.
@@ -117,7 +114,6 @@ class StateSize : public StateWriter {
   void put_rows(std::string_view, DistributedRows const& rows, std::span<double const>) override {
     numbers_ += value_count(rows);
   }
-  Rows rows() const override { return Rows::counted; }
   std::size_t numbers() const { return numbers_; }
 
  private:
@@ -167,9 +163,8 @@ class Formulation {
   virtual Descent descend(double /*time*/, double /*dt*/) { throw std::logic_error("no minimisation of the energy"); }
 
   virtual std::optional<Failure> failure() const = 0;  ///< set once the state is inadmissible
-  virtual double kinetic_energy() const = 0;           ///< [J]; collective
-  /// Collective, like save(), load() and the functions of observables(), if the body is distributed over ranks; the
-  /// result is on rank 0.
+  virtual double kinetic_energy() const = 0;           ///< [J], equal on all ranks; collective
+  /// Equal on all ranks. Collective, like save(), load() and the functions of observables().
   virtual Diagnostics diagnose() const = 0;
   virtual Observables const& observables() const = 0;  ///< lives as long as the formulation
   virtual RunStatistics statistics() const = 0;        ///< of this rank

@@ -45,7 +45,7 @@ class Observables {
   virtual void sample_local(std::string_view field, std::span<double> values) const = 0;
   /// Current state of free and rotating rigid shapes; driven ones without rotation follow from the case.
   virtual std::vector<RigidState> rigids() const = 0;
-  /// The bound that limits the next step; valid after a step. Collective; the result is on rank 0.
+  /// The bound that limits the next step; valid after a step. Equal on all ranks. Collective.
   virtual StepBound step_bound() const = 0;
 };
 

@@ -97,9 +97,13 @@ void EnergyJumpGuard::look(Formulation const& formulation, TimeState const& mome
 
 void EnergyJumpGuard::object(Formulation const& formulation, TimeState const& moment, Diagnostics const& now) {
   bool const number = std::isfinite(energy_without_work(now));
-  FieldCache fields(formulation, particles_);
   StopRequest o;
-  if (auto const fastest = most_moved(fields, particles_, {}, moment.time)) {
+  std::optional<Suspect> fastest;  // on rank 0
+  evaluate_on_root(formulation, particles_, [&](FieldCache& fields) {
+    fastest = most_moved(fields, particles_, {}, moment.time);
+    return true;
+  });
+  if (fastest) {
     take_particle(o.failure, *fastest, particles_);
     o.failure.what = number ? "is the fastest where the energy jumps without a load"
                             : "is the fastest, and the energy is not a number";

@@ -19,8 +19,7 @@ class EnergyJumpGuard {
  public:
   /// `particles` must outlive the guard. scale: of the run, before its first step.
   EnergyJumpGuard(CaseSpec const& spec, ParticleSet const& particles, EnergyScale const& scale);
-  /// Called at the start and after each step. row: energies of this step if already evaluated, else null. Collective;
-  /// called on rank 0.
+  /// Called at the start and after each step. row: energies of this step if already evaluated, else null. Collective.
   void observe(Formulation const& formulation, TimeState const& moment, Diagnostics const* row, bool last);
   /// Set once the energy has jumped or is not a number.
   std::optional<StopRequest> const& stop_request() const { return stop_request_; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/measures/probe_set.hpp"
 #include "piola/base/contracts.hpp"
-#include <algorithm>
+#include <limits>
 
 namespace piola {
 
@@ -9,19 +9,22 @@ ProbeSet::ProbeSet(CaseSpec const& spec, ParticleSet const& particles) : particl
   for (ProbeSpec const& probe : spec.probes) probes_.emplace_back(probe, particles);
 }
 
-std::vector<std::vector<double>> ProbeSet::evaluate(Formulation const& formulation, double time,
-                                                    OnAllRanks on_all_ranks) {
-  PIOLA_EXPECTS(on_all_ranks != nullptr);
+std::vector<std::vector<double>> ProbeSet::evaluate(Formulation const& formulation, double time) {
   std::vector<std::vector<double>> values(probes_.size());
-  if (std::any_of(probes_.begin(), probes_.end(), [](Probe const& probe) { return probe.is_reducible(); }))
-    on_all_ranks(time, [&] { values = evaluate_additive(formulation, time); });
-  FieldCache all(formulation, particles_);
-  for (std::size_t k = 0; k < probes_.size(); ++k)
-    if (!probes_[k].is_reducible()) values[k] = probes_[k].evaluate(all, time);
+  std::vector<std::size_t> of_all;  // probes that need all particles
+  for (std::size_t k = 0; k < probes_.size(); ++k) {
+    if (probes_[k].is_reducible()) continue;
+    of_all.push_back(k);
+    values[k].assign(probes_[k].columns().size(), std::numeric_limits<double>::quiet_NaN());
+  }
+  if (of_all.size() < probes_.size()) evaluate_additive(formulation, time, values);
+  if (of_all.empty()) return values;
+  evaluate_on_root(formulation, particles_, [&](FieldCache& all) {
+    for (std::size_t const k : of_all) values[k] = probes_[k].evaluate(all, time);
+    return true;
+  });
   return values;
 }
-
-void ProbeSet::evaluate_local(Formulation const& formulation, double time) { evaluate_additive(formulation, time); }
 
 /// Restricts probes to the local particles. Recreates those that were restricted to an earlier partition.
 void ProbeSet::distribute(std::optional<std::vector<std::int64_t>> const& local) {
@@ -37,13 +40,12 @@ void ProbeSet::distribute(std::optional<std::vector<std::int64_t>> const& local)
   distributed_to_ = local;
 }
 
-std::vector<std::vector<double>> ProbeSet::evaluate_additive(Formulation const& formulation, double time) {
+void ProbeSet::evaluate_additive(Formulation const& formulation, double time,
+                                 std::vector<std::vector<double>>& values) {
   FieldCache own(formulation, particles_, FieldCache::Of::local);
   if (own.local_particles() != distributed_to_) distribute(own.local_particles());
-  std::vector<std::vector<double>> values;
-  for (Probe& probe : probes_)
-    values.push_back(probe.is_reducible() ? probe.evaluate(own, time) : std::vector<double>());
-  return values;
+  for (std::size_t k = 0; k < probes_.size(); ++k)
+    if (probes_[k].is_reducible()) values[k] = probes_[k].evaluate(own, time);
 }
 
 }  // namespace piola

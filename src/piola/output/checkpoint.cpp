@@ -2,8 +2,9 @@
 #include "piola/output/checkpoint.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
-#include "piola/domain/communicator.hpp"
+#include "piola/domain/error_agreement.hpp"
 #include "piola/output/atomic_file.hpp"
+#include "piola/output/broadcast_reader.hpp"
 #include "piola/output/collective_table_writer.hpp"
 #include "piola/output/hdf5.hpp"
 #include <algorithm>
@@ -17,21 +18,21 @@ namespace {
 
 constexpr std::int64_t layout_version = 5;
 
-/// Puts arrays into a group of a file.
+/// Puts arrays into a group of the file that rank 0 has open; null on other ranks.
 class GroupWriter : public StateWriter {
  public:
-  GroupWriter(hdf5::Writer& file, std::string group) : file_(file), group_(std::move(group)) { file_.group(group_); }
+  GroupWriter(hdf5::Writer* file, std::string group) : file_(file), group_(std::move(group)) {}
   void put(std::string_view name, std::span<double const> values) override {
-    std::string const path = path_of(name);
-    file_.dataset<double>(path, values);
-    file_.attribute(path, "name", name);
+    rows_.on_root([&] {
+      std::string const path = path_of(name);
+      file_->dataset<double>(path, values);
+      file_->attribute(path, "name", name);
+    });
   }
   void put_rows(std::string_view name, DistributedRows const& rows, std::span<double const> values) override {
-    std::string const path = path_of(name);
-    rows_.put(path, rows, values, hdf5::Storage::sequence);
-    if (rows_.good()) file_.attribute(path, "name", name);
+    rows_.put(path_of(name), rows, values, hdf5::Storage::sequence);
+    rows_.on_root([&] { file_->attribute(path_of(name), "name", name); });
   }
-  Rows rows() const override { return Rows::to_file; }
   void end_rows() override { rows_.end(); }
 
  private:
@@ -41,9 +42,9 @@ class GroupWriter : public StateWriter {
     std::replace(path.begin() + static_cast<std::ptrdiff_t>(group_.size()) + 1, path.end(), '/', '.');
     return path;
   }
-  hdf5::Writer& file_;
+  hdf5::Writer* file_;
   std::string group_;
-  CollectiveTableWriter rows_{&file_};
+  CollectiveTableWriter rows_{file_};
 };
 
 void put_all(NamedState const& state, StateWriter& writer) {
@@ -164,11 +165,10 @@ void NamedState::get(std::string_view name, std::span<double> values) {
   std::copy(kept.begin(), kept.end(), values.begin());
 }
 
-void write_checkpoint(std::filesystem::path const& path, Checkpoint const& c,
-                      std::function<void(StateWriter&)> const& save) {
-  PIOLA_EXPECTS(c.step >= 0);
-  make_folder(path.parent_path());
-  hdf5::Writer file(path);
+namespace {
+
+/// All but the state of formulation and observers.
+void put_words(Checkpoint const& c, hdf5::Writer& file) {
   file.attribute("/", "piola_checkpoint", std::array{layout_version});
   file.attribute("/", "version", c.version);
   file.attribute("/", "machine", c.backend);
@@ -179,16 +179,29 @@ void write_checkpoint(std::filesystem::path const& path, Checkpoint const& c,
   file.attribute("/", "cut_to_end", std::array<std::int64_t, 1>{c.cut_to_end ? 1 : 0});
   file.dataset<char>("/case", std::span<char const>(c.source));
   file.dataset<char>("/particles", std::span<char const>(c.particles));
-  GroupWriter state(file, "/state");
+}
+
+}  // namespace
+
+void write_checkpoint(std::filesystem::path const& path, Checkpoint const& c,
+                      std::function<void(StateWriter&)> const& save) {
+  PIOLA_EXPECTS(c.step >= 0);
+  std::optional<hdf5::Writer> file;  // on rank 0
+  comm::on_root([&] {
+    make_folder(path.parent_path());
+    file.emplace(path);
+    put_words(c, *file);
+    for (char const* const group : {"/state", "/observers"}) file->group(group);
+  });
+  GroupWriter state(file ? &*file : nullptr, "/state"), observers(file ? &*file : nullptr, "/observers");
   if (save)
     save(state);
   else
     put_all(c.state, state);
-  if (!comm::is_parallel())
-    state.end_rows();  // on several ranks, the formulation calls end_rows() after all have written
-  GroupWriter observers(file, "/observers");
+  state.end_rows();
   put_all(c.observers, observers);
-  file.finish();
+  observers.end_rows();
+  comm::on_root([&] { file->finish(); });
 }
 
 namespace {
@@ -212,6 +225,39 @@ Checkpoint read_words(hdf5::Reader const& file, std::filesystem::path const& pat
   c.particles.assign(particles.begin(), particles.end());
   c.observers = get_state(file, "/observers");
   return c;
+}
+
+}  // namespace
+
+namespace {
+
+void broadcast(std::vector<double>& values) {
+  values.resize(comm::of_root(values.size()));
+  comm::broadcast_bytes(values.data(), values.size() * sizeof(double));
+}
+
+/// Gives all ranks the numbers of a checkpoint and the state of its observers. Collective.
+void broadcast(Checkpoint& c) {
+  std::array numbers{c.time, c.dt, c.first_dt, c.wall_seconds, c.stepping_seconds, c.cut_to_end ? 1.0 : 0.0};
+  numbers = comm::of_root(numbers);
+  c.time = numbers[0];
+  c.dt = numbers[1];
+  c.first_dt = numbers[2];
+  c.wall_seconds = numbers[3];
+  c.stepping_seconds = numbers[4];
+  c.cut_to_end = numbers[5] != 0;
+  c.step = comm::of_root(c.step);
+  auto const arrays = c.observers.arrays();
+  auto next = arrays.begin();
+  for (std::size_t k = comm::of_root(arrays.size()); k > 0; --k) {
+    std::string name = next == arrays.end() ? "" : next->first;
+    std::vector<double> values = next == arrays.end() ? std::vector<double>() : next->second;
+    name.resize(comm::of_root(name.size()));
+    comm::broadcast_bytes(name.data(), name.size());
+    broadcast(values);
+    c.observers.put(name, values);
+    if (next != arrays.end()) ++next;
+  }
 }
 
 }  // namespace
@@ -244,29 +290,62 @@ std::vector<std::filesystem::path> list_checkpoints(std::filesystem::path const&
 void keep_checkpoint(std::filesystem::path const& results, Checkpoint const& checkpoint,
                      std::function<void(StateWriter&)> const& save) {
   write_checkpoint(checkpoint_path(results, checkpoint.step), checkpoint, save);
-  auto const all = list_checkpoints(results);
-  std::error_code kept_all_the_same;
-  for (std::size_t k = 2; k < all.size(); ++k) std::filesystem::remove(all[k], kept_all_the_same);
-  keep_duration(results, checkpoint);
+  comm::on_root([&] {
+    auto const all = list_checkpoints(results);
+    std::error_code kept_all_the_same;
+    for (std::size_t k = 2; k < all.size(); ++k) std::filesystem::remove(all[k], kept_all_the_same);
+    keep_duration(results, checkpoint);
+  });
 }
+
+namespace {
+
+/// Opens a checkpoint on rank 0 and gives all ranks what is not the state of the formulation or text, which rank 0
+/// compares with its case. Collective.
+Checkpoint open_checkpoint(std::filesystem::path const& results, std::filesystem::path const& path) {
+  Checkpoint c;
+  std::shared_ptr<StateReader> state;
+  comm::on_root([&] {
+    auto const file = std::make_shared<hdf5::Reader const>(path);
+    c = read_words(*file, path);
+    state = std::make_shared<GroupReader>(file, "/state");
+    find_duration(results, c);
+  });
+  broadcast(c);
+  c.in_file = comm::is_parallel() ? std::make_shared<BroadcastReader>(std::move(state)) : std::move(state);
+  return c;
+}
+
+/// Whether no older checkpoint can help.
+bool is_final(std::exception_ptr const& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (InputError const&) {
+    return true;
+  } catch (std::bad_alloc const&) {
+    return true;
+  } catch (comm::CollectiveError const& e) {
+    return e.code() == bad_input;
+  } catch (...) {
+    return false;
+  }
+}
+
+}  // namespace
 
 bool use_newest_checkpoint(std::filesystem::path const& results, std::vector<std::string>& warnings,
                            std::function<bool(Checkpoint&)> const& use) {
   PIOLA_EXPECTS(use != nullptr);
   bool declined = false;
-  for (auto const& path : list_checkpoints(results)) {
+  std::vector<std::filesystem::path> paths = list_checkpoints(results);
+  paths.resize(comm::of_root(paths.size()));  // other ranks need no paths
+  for (auto const& path : paths) {
     try {
-      auto const file = std::make_shared<hdf5::Reader const>(path);
-      Checkpoint checkpoint = read_words(*file, path);
-      checkpoint.in_file = std::make_shared<GroupReader>(file, "/state");
-      find_duration(results, checkpoint);
+      Checkpoint checkpoint = open_checkpoint(results, path);
       if (use(checkpoint)) return true;
       declined = true;
-    } catch (InputError const&) {
-      throw;
-    } catch (std::bad_alloc const&) {
-      throw;
     } catch (std::exception const& error) {
+      if (is_final(std::current_exception())) throw;
       std::string const what = error.what();
       bool const named = what.starts_with(path.string());
       warnings.push_back(

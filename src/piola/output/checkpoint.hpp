@@ -45,7 +45,8 @@ struct Checkpoint {
 };
 
 /// Writes one file (whole, synced, renamed). Throws FileError. `save`: writes the state of the formulation array by
-/// array in place of checkpoint.state, which avoids a second copy of it in memory.
+/// array in place of checkpoint.state, which avoids a second copy of it in memory. On several ranks, writing and using
+/// a checkpoint are collective, the file is that of rank 0, and an error on a rank is comm::CollectiveError on all.
 void write_checkpoint(std::filesystem::path const& path, Checkpoint const& checkpoint,
                       std::function<void(StateWriter&)> const& save = {});
 /// Reads one file after its checksum trailer has been verified. Throws FileError.
@@ -65,7 +66,7 @@ void keep_checkpoint(std::filesystem::path const& results, Checkpoint const& che
 /// Calls use(checkpoint) for the newest checkpoint, with its state in `in_file`. Falls back to the previous one if the
 /// file is damaged or `use` throws, with a line in `warnings`, or if `use` returns false, without a warning. Returns
 /// whether one was used. InputError and std::bad_alloc of `use` propagate. Throws InputError with the reasons if no
-/// checkpoint remains.
+/// checkpoint remains. The texts of the checkpoint are on rank 0 only.
 bool use_newest_checkpoint(std::filesystem::path const& results, std::vector<std::string>& warnings,
                            std::function<bool(Checkpoint&)> const& use);
 

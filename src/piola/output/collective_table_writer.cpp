@@ -2,7 +2,7 @@
 #include "piola/output/collective_table_writer.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
-#include "piola/domain/communicator.hpp"
+#include "piola/domain/error_agreement.hpp"
 #include "piola/output/collective_table_reader.hpp"
 #include "piola/output/deflate.hpp"
 #include "piola/output/hdf5.hpp"
@@ -48,13 +48,11 @@ RedistributionPlan const& CollectiveTableWriter::plan(DistributedRows const& row
 template <class F>
 std::optional<std::vector<std::uint64_t>> CollectiveTableWriter::by_first(std::size_t count, F const& f) {
   std::vector<std::uint64_t> said(count + 1, 0);  // the last one: whether there are any
-  if (file_ != nullptr && !trouble_) try {
-      auto const places = f();
-      std::copy(places.begin(), places.end(), said.begin());
-      said.back() = 1;
-    } catch (...) {
-      trouble_ = std::current_exception();
-    }
+  on_root([&] {
+    auto const places = f();
+    std::copy(places.begin(), places.end(), said.begin());
+    said.back() = 1;
+  });
   comm::broadcast_bytes(said.data(), said.size() * sizeof said.front());
   if (said.back() == 0) return std::nullopt;
   said.pop_back();
@@ -146,7 +144,9 @@ void CollectiveTableWriter::end() {
                      static_cast<std::uint32_t>(said[k + 2])});
     }
   }
-  if (trouble_) std::rethrow_exception(trouble_);
+  comm::agree_after([&] {
+    if (trouble_) std::rethrow_exception(trouble_);
+  });
 }
 
 }  // namespace piola

@@ -26,10 +26,18 @@ class CollectiveTableWriter {
   template <class T>
   void put(std::string const& path, DistributedRows const& rows, std::span<T const> values,
            hdf5::Storage storage = hdf5::Storage::contiguous);
-  /// On rank 0: whether no error has been recorded so far. Errors of other ranks are included after end().
-  bool good() const { return !trouble_; }
-  /// Completes all writes to the disk. Collective; a second call does nothing. Throws FileError on rank 0 if a rank
-  /// could not write its part.
+  /// Calls f() on rank 0, unless an error has been recorded there. Records an error of f(), too: end() throws it.
+  template <class F>
+  void on_root(F const& f) {
+    if (file_ == nullptr || trouble_) return;
+    try {
+      f();
+    } catch (...) {
+      trouble_ = std::current_exception();
+    }
+  }
+  /// Completes all writes to the disk. Collective; a second call does nothing. Throws on all ranks if a rank could not
+  /// write its part: comm::CollectiveError, or on one rank FileError.
   void end();
 
  private:

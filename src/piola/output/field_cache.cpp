@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/field_cache.hpp"
 #include "piola/base/contracts.hpp"
+#include "piola/domain/error_agreement.hpp"
 #include "piola/formulations/derived_fields.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <exception>
 
 namespace piola {
 
@@ -26,6 +29,56 @@ bool FieldCache::knows(std::string_view field) const {
 
 FieldInfo const& FieldCache::info(std::string_view field) const { return info_of(fields_, field); }
 
+namespace {
+
+/// Name of a field that rank 0 requests from all ranks; empty: no more.
+using FieldRequest = std::array<char, 64>;
+
+/// The request of rank 0, on all ranks. Collective.
+FieldRequest broadcast_request(std::string_view field) {
+  FieldRequest request{};
+  PIOLA_EXPECTS(field.size() < request.size());
+  std::copy(field.begin(), field.end(), request.begin());
+  return comm::of_root(request);
+}
+
+/// Calls f() on rank 0, then ends the requests also if f() throws.
+bool evaluate_all(Formulation const& formulation, ParticleSet const& particles,
+                  std::function<bool(FieldCache&)> const& f) {
+  bool result = false;
+  std::exception_ptr error;
+  try {
+    FieldCache fields(formulation, particles);
+    result = f(fields);
+  } catch (...) {
+    error = std::current_exception();
+  }
+  if (comm::is_parallel()) broadcast_request("");
+  if (error) std::rethrow_exception(error);
+  return result;
+}
+
+/// Samples what rank 0 requests.
+void sample_requests(Observables const& observables) {
+  for (FieldRequest next = broadcast_request(""); next[0] != 0; next = broadcast_request(""))
+    observables.sample(next.data(), {});
+}
+
+}  // namespace
+
+bool evaluate_on_root(Formulation const& formulation, ParticleSet const& particles,
+                      std::function<bool(FieldCache&)> const& f) {
+  PIOLA_EXPECTS(f != nullptr);
+  bool result = false;
+  comm::agree_after([&] {
+    if (comm::rank() == 0)
+      result = evaluate_all(formulation, particles, f);
+    else
+      sample_requests(formulation.observables());
+  });
+  return comm::of_root(result);
+}
+
 std::vector<double> FieldCache::make(std::string_view field, std::size_t components) {
   auto const count = local_ ? local_->size() : static_cast<std::size_t>(particles_.size());
   auto const id_of = [&](std::size_t k) { return local_ ? static_cast<std::size_t>((*local_)[k]) : k; };
@@ -42,6 +95,7 @@ std::vector<double> FieldCache::make(std::string_view field, std::size_t compone
   } else if (of_ == Of::local) {
     observables_.sample_local(field, out);
   } else {
+    if (comm::is_parallel()) broadcast_request(field);
     observables_.sample(field, out);
   }
   return out;

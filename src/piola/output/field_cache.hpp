@@ -3,6 +3,7 @@
 #include "piola/formulations/formulation.hpp"
 #include "piola/particles/particle_set.hpp"
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -11,12 +12,21 @@
 
 namespace piola {
 
+class FieldCache;
+
+/// Calls f(fields) on rank 0, where `fields` has the values of all particles. The other ranks send their values of each
+/// field that f() requests. Returns on all ranks what f() returned. Collective. If f() throws, all ranks throw
+/// comm::CollectiveError; on one rank the error itself.
+bool evaluate_on_root(Formulation const& formulation, ParticleSet const& particles,
+                      std::function<bool(FieldCache&)> const& f);
+
 /// Fields at one time, each sampled at most once. Contains the formulation's fields and "Position" (X + Displacement
 /// [m]), "Body" and "Id". Valid until the next step; formulation and particles must outlive it.
 class FieldCache {
  public:
-  /// all: values of all particles. local: values of local particles only (Observables::local_particles); `id` below is
-  /// then the index among these, and values() is collective: all ranks request the same fields in the same order.
+  /// all: values of all particles; on several ranks only in evaluate_on_root(). local: values of local particles only
+  /// (Observables::local_particles); `id` below is then the index among these, and values() is collective: all ranks
+  /// request the same fields in the same order.
   enum class Of { all, local };
   FieldCache(Formulation const& formulation, ParticleSet const& particles, Of of = Of::all);
   bool knows(std::string_view field) const;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/output/frames.hpp"
 #include "piola/base/contracts.hpp"
-#include "piola/domain/communicator.hpp"
+#include "piola/domain/error_agreement.hpp"
 #include "piola/formulations/derived_fields.hpp"
 #include "piola/formulations/field_signs.hpp"
 #include "piola/output/atomic_file.hpp"
@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <numeric>
+#include <optional>
 
 namespace piola {
 namespace {
@@ -115,10 +116,8 @@ void FrameContent::describe(hdf5::Writer& file) const {
   }
 }
 
-void FrameWriter::write(double time, FieldCache& cache, WithAll const& with_all) {
-  PIOLA_EXPECTS(std::isfinite(time));
-  make_folder(folder_ / "frames");
-  hdf5::Writer file(folder_ / frame_name(times_.size()));
+/// Writes all but the tables of particles.
+void FrameWriter::begin(hdf5::Writer& file, double time, FieldCache const& cache) const {
   file.group("/VTKHDF/PointData");
   file.group("/VTKHDF/CellData");
   file.group("/VTKHDF/FieldData");
@@ -133,15 +132,27 @@ void FrameWriter::write(double time, FieldCache& cache, WithAll const& with_all)
   for (RigidState const& rigid : cache.observables().rigids())
     for (auto const& part : {rigid.centre, rigid.turn}) poses.insert(poses.end(), part.begin(), part.end());
   if (!poses.empty()) file.dataset<double>(rigid_poses_name, poses, 6);
-  FrameContent content(fields_, compress_, cache);
-  with_all([&] {
-    CollectiveTableWriter rows(&file);
-    content.put(rows);
+}
+
+void FrameWriter::write(double time, FieldCache& cache) {
+  PIOLA_EXPECTS(std::isfinite(time));
+  std::optional<hdf5::Writer> file;  // on rank 0
+  comm::on_root([&] {
+    make_folder(folder_ / "frames");
+    file.emplace(folder_ / frame_name(times_.size()));
+    begin(*file, time, cache);
   });
-  content.describe(file);
-  file.finish();
+  FrameContent content(fields_, compress_, cache);
+  CollectiveTableWriter rows(file ? &*file : nullptr);
+  content.put(rows);
+  comm::on_root([&] {
+    content.describe(*file);
+    file->finish();
+  });
   times_.push_back(time);
-  if (times_.size() == 1 || !index_.add({time, frame_name(times_.size() - 1)})) write_index();
+  comm::on_root([&] {
+    if (times_.size() == 1 || !index_.add({time, frame_name(times_.size() - 1)})) write_index();
+  });
 }
 
 void FrameWriter::write_index() {
@@ -152,14 +163,16 @@ void FrameWriter::write_index() {
 
 std::vector<std::string> FrameWriter::continue_after(std::vector<double> times) {
   times_ = std::move(times);
-  std::error_code ignored;
-  for (std::size_t k = times_.size(); std::filesystem::remove(folder_ / frame_name(k), ignored); ++k) {
-  }
   missing_.clear();
-  for (std::size_t k = 0; k < times_.size(); ++k) {
-    if (!std::filesystem::exists(folder_ / frame_name(k), ignored)) missing_.push_back(frame_name(k));
-  }
-  if (!times_.empty()) write_index();
+  comm::on_root([&] {
+    std::error_code ignored;
+    for (std::size_t k = times_.size(); std::filesystem::remove(folder_ / frame_name(k), ignored); ++k) {
+    }
+    for (std::size_t k = 0; k < times_.size(); ++k) {
+      if (!std::filesystem::exists(folder_ / frame_name(k), ignored)) missing_.push_back(frame_name(k));
+    }
+    if (!times_.empty()) write_index();
+  });
   return missing_;
 }
 

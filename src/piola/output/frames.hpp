@@ -4,7 +4,6 @@
 #include "piola/output/field_cache.hpp"
 #include "piola/output/frame_index.hpp"
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,7 +16,7 @@ class FrameContent {
   /// `fields` empty: every field of the formulation; unknown names are skipped. `cache`: fields of the local particles.
   /// Both must outlive this object.
   FrameContent(std::vector<std::string> const& fields, bool compress, FieldCache& cache);
-  /// Collective. Throws FileError on rank 0.
+  /// Collective. Throws as CollectiveTableWriter::end().
   void put(CollectiveTableWriter& rows);
   /// Writes attributes that describe the tables. On rank 0, after put().
   void describe(hdf5::Writer& file) const;
@@ -38,23 +37,21 @@ class FrameWriter {
  public:
   /// `fields` empty: every field of the formulation. Names that the formulation does not have are left out.
   FrameWriter(std::filesystem::path folder, std::vector<std::string> fields, bool compress);
-  /// Calls a function that writes tables; with distributed particles, at a time when all ranks write theirs.
-  using WithAll = std::function<void(std::function<void()> const&)>;
   /// Changes the fields of the next frames.
   void set_fields(std::vector<std::string> fields) { fields_ = std::move(fields); }
-  /// Writes the next frame and its line in the index. Throws FileError; earlier frames stay as they are. `cache`: of
-  /// the particles that this rank owns.
-  void write(
-      double time, FieldCache& cache, WithAll const& with_all = [](auto const& put) { put(); });
+  /// Writes the next frame and its line in the index; earlier frames stay as they are. `cache`: of the particles that
+  /// this rank owns. Collective. Throws FileError, on several ranks comm::CollectiveError on all.
+  void write(double time, FieldCache& cache);
   /// Times of the frames written so far [s].
   std::vector<double> const& times() const { return times_; }
   /// Continues after the frames with these times; later files on the disk are removed. Returns the names of frames that
-  /// should be there and are not.
+  /// should be there and are not, on rank 0. Collective.
   std::vector<std::string> continue_after(std::vector<double> times);
   /// The frames and their index, but for frames that were missing when they were continued.
   std::vector<std::filesystem::path> files() const;
 
  private:
+  void begin(hdf5::Writer& file, double time, FieldCache const& cache) const;
   void write_index();
   std::filesystem::path folder_;
   std::vector<std::string> fields_;

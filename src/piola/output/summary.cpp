@@ -25,8 +25,7 @@ void add_ranks(Summary const& s, nlohmann::ordered_json& document) {
                                  {"collectives", rank.collectives},
                                  {"message_seconds", rank.message_seconds},
                                  {"replicated_bytes", rank.replicated_bytes},
-                                 {"collective_seconds", rank.collective_seconds},
-                                 {"idle_seconds", rank.idle_seconds}});
+                                 {"collective_seconds", rank.collective_seconds}});
   if (s.repartition_statistics)
     document["repartition"] = {{"count", s.repartition_statistics->imbalance.size()},
                                {"imbalance", s.repartition_statistics->imbalance},

@@ -33,10 +33,10 @@ struct GuardNumbers {
 };
 
 /// Communication of a rank, mean per step: messages to neighbouring ranks and collectives; and the wall time in both,
-/// with waiting, and in waiting for serial work of rank 0 [s].
+/// with waiting for slower ranks [s].
 struct RankTraffic {
   double messages = 0, bytes = 0, collectives = 0;
-  double message_seconds = 0, collective_seconds = 0, idle_seconds = 0;
+  double message_seconds = 0, collective_seconds = 0;
   double replicated_bytes = 0;
 };
 

@@ -3,6 +3,7 @@
 #include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
+#include "piola/domain/error_agreement.hpp"
 #include "piola/exec/heap_tuning.hpp"
 #include "piola/exec/reproducible_sum.hpp"
 #include "piola/exec/threads.hpp"
@@ -12,14 +13,15 @@
 #include "piola/input/contact_capabilities.hpp"
 #include "piola/input/formula_loop.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
+#include "piola/math/hash.hpp"
 #include "piola/model/case_particles.hpp"
 #include "piola/model/region_checks.hpp"
 #include "piola/neighbours/particle_cells.hpp"
 #include "piola/particles/body_extents.hpp"
 #include "piola/particles/part_properties.hpp"
 #include "piola/setup/contact_surface.hpp"
-#include "piola/simulation/driver_and_workers.hpp"
 #include <algorithm>
+#include <bit>
 #include <string_view>
 
 namespace piola {
@@ -308,6 +310,26 @@ Assembly assemble(CaseSpec const& spec, ParticleSet particles) {
 
 namespace {
 
+/// Throws comm::CollectiveError on all ranks unless all have the same particles and materials. Collective.
+void require_identical_case(Assembly const& assembly) {
+  std::uint64_t hash = 0;
+  auto const add = [&](double value) { hash = hash_mix(hash + std::bit_cast<std::uint64_t>(value)); };
+  auto const add_points = [&](auto const& points) {
+    for (auto const& point : points)
+      for (double const value : point) add(value);
+  };
+  add_points(assembly.particles.X);
+  add_points(assembly.initial_velocity);
+  for (double const volume : assembly.particles.volume) add(volume);
+  for (MaterialParameters const& material : assembly.materials)
+    for (double const value : material.value) add(value);
+  if (comm::all_equal(hash)) return;
+  throw comm::CollectiveError(
+      {bad_input,
+       "the ranks have read different cases (the same particles, motions and materials are needed on all) - give "
+       "all of them the same words, and files that every machine sees under the same path"});
+}
+
 Simulation build_from(CaseSpec spec, Assembly assembly) {
   Simulation simulation;
   simulation.threads = exec_host::threads();
@@ -315,18 +337,18 @@ Simulation build_from(CaseSpec spec, Assembly assembly) {
     simulation.mass += mass_of(spec.bodies[b], assembly.particles.bodies[b], assembly.particles);
   }
   for (RigidShape const& shape : assembly.rigid_shapes) simulation.mass += shape.mass;
-  agree_to_continue();
-  require_identical_case(assembly);
+  if (comm::is_parallel()) require_identical_case(assembly);
   exec_host::set_lazy_allocation(comm::size());
-  simulation.formulation = driven_by_root(make_formulation(assembly));
+  simulation.formulation = make_formulation(assembly);
   simulation.formulation_name = formulation_names(spec);
-  check_fields(spec, *simulation.formulation, simulation.formulation_name);
-  agree_to_continue();
+  comm::agree_after([&] { check_fields(spec, *simulation.formulation, simulation.formulation_name); });
   double const step = std::min(simulation.formulation->step_estimate().stable, spec.run.max_step);
   StartEstimate prospect{.step = step};
-  if (any_contact(spec) && comm::rank() == 0) prospect.start = simulation.formulation->diagnose();
-  if (prospect.start) refuse_unpaid_contact(spec, assembly.particles, *prospect.start);
-  simulation.warnings = warnings_of(spec, assembly, prospect);
+  if (any_contact(spec)) prospect.start = simulation.formulation->diagnose();
+  comm::agree_after([&] {
+    if (prospect.start) refuse_unpaid_contact(spec, assembly.particles, *prospect.start);
+    simulation.warnings = warnings_of(spec, assembly, prospect);
+  });
   for (SetUpCheck& check : simulation.formulation->statistics().set_up_checks)
     if (!check.warning.empty()) simulation.warnings.push_back(std::move(check.warning));
   simulation.particles = std::move(assembly.particles);
@@ -340,13 +362,15 @@ Simulation build_from(CaseSpec spec, Assembly assembly) {
 
 Simulation build(CaseSpec spec) {
   exec_host::set_threads(spec.run.threads);
-  Assembly assembly = assemble(spec);
+  Assembly assembly;
+  comm::agree_after([&] { assembly = assemble(spec); });
   return build_from(std::move(spec), std::move(assembly));
 }
 
 Simulation build(CaseSpec spec, ParticleSet particles) {
   exec_host::set_threads(spec.run.threads);
-  Assembly assembly = assemble(spec, std::move(particles));
+  Assembly assembly;
+  comm::agree_after([&] { assembly = assemble(spec, std::move(particles)); });
   return build_from(std::move(spec), std::move(assembly));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/dynamic_relaxation.hpp"
 #include "piola/base/contracts.hpp"
+#include "piola/domain/communicator.hpp"
 #include "piola/exec/reproducible_sum.hpp"
 #include <algorithm>
 #include <array>
@@ -99,17 +100,19 @@ double Relaxation::displacement(Formulation const& formulation) const {
     return std::numeric_limits<double>::infinity();
   constexpr double rounding = 1e-9;
   auto const& X = particles_.X;
-  std::vector<double> u(3 * X.size());
-  formulation.observables().sample("Displacement", u);
+  FieldCache own(formulation, particles_, FieldCache::Of::local);
+  std::span<double const> const u = own.values("Displacement");
   exec::ReproducibleSums<3> sums;
-  for (std::size_t i = 0; i < X.size(); ++i) {
+  for (std::size_t k = 0; k < u.size() / 3; ++k) {
+    auto const i = own.local_particles() ? static_cast<std::size_t>((*own.local_particles())[k]) : k;
     double of_one[]{particles_.volume[i], 0, 0};
     for (std::size_t c = 0; c < 3; ++c) {
-      of_one[1] += particles_.volume[i] * u[3 * i + c] * u[3 * i + c];
+      of_one[1] += particles_.volume[i] * u[3 * k + c] * u[3 * k + c];
       of_one[2] += particles_.volume[i] * (X[i][c] - X[0][c]) * (X[i][c] - X[0][c]);
     }
     sums.add(of_one);
   }
+  comm::allreduce_sum(sums);
   return std::sqrt(std::max(sums.value(1), rounding * rounding * sums.value(2)) / sums.value(0));
 }
 

@@ -28,7 +28,7 @@ struct RelaxationStatus {
 /// displacement is about |a| (2 T / pi)^2, in the norm sqrt(sum m |u|^2). RemovedEnergy::left() is a second estimate,
 /// which holds where fast motion causes the stops. Convergence: |a| is below `rest` of the largest so far at two
 /// consecutive stops, and the larger estimate is below 1 % of the present displacement. Relaxation is an Observer only
-/// for its state in checkpoints. On rank 0 only.
+/// for its state in checkpoints.
 class Relaxation : public Observer {
  public:
   /// `mass` [kg] of all moving particles. The particles must outlive the relaxation.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/guard_observer.hpp"
 #include "piola/base/contracts.hpp"
+#include "piola/domain/communicator.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
@@ -24,15 +25,16 @@ GuardObserver::GuardObserver(Results results, double mass, HistoryObserver const
     : results_(std::move(results)),
       history_(history),
       scale_(mass, finest_spacing(results_.particles), roundoff_energy(results_.spec, results_.particles)),
-      jump_(results_.spec, results_.particles, scale_) {
+      jump_(results_.spec, results_.particles, scale_),
+      on_(results_.spec.run.guards.on) {
   PIOLA_EXPECTS(mass >= 0);
-  if (results_.spec.run.guards.on) guards_ = make_guards(results_.spec, results_.particles);
+  if (on_ && comm::rank() == 0) guards_ = make_guards(results_.spec, results_.particles);
   told_.assign(guards_.size(), 0);
   kicked_ = starts_under_pressure(results_.spec);
 }
 
 void GuardObserver::observe(Formulation const& formulation, TimeState const& moment) {
-  if (guards_.empty() || (kicked_ && moment.step == 0)) return;
+  if (!on_ || (kicked_ && moment.step == 0)) return;
   bool const last = moment.time >= results_.spec.run.end || moment.at_rest;
   auto const step = static_cast<double>(moment.step);
   Diagnostics const* row = history_.row_of(moment.step);
@@ -41,14 +43,22 @@ void GuardObserver::observe(Formulation const& formulation, TimeState const& mom
   last_look_ = step;
   Diagnostics const own = row == nullptr ? formulation.diagnose() : *row;
   scale_.observe(own, moment);
-  FieldCache fields(formulation, results_.particles);
-  GuardInput const look{formulation, moment, own, scale_, fields, last};
+  stops_ = evaluate_on_root(formulation, results_.particles, [&](FieldCache& fields) {
+    return look_of_guards({formulation, moment, own, scale_, fields, last});
+  });
+}
+
+/// Shows a state to all guards. Whether one of them stops the run.
+bool GuardObserver::look_of_guards(GuardInput const& look) {
+  bool stops = false;
   for (std::size_t k = 0; k < guards_.size(); ++k) {
     guards_[k]->look(look);
-    if (told_[k] != 0 || moment.step == 0 || guards_[k]->words().empty()) continue;
+    stops = stops || guards_[k]->stop_request().has_value();
+    if (told_[k] != 0 || look.moment.step == 0 || guards_[k]->words().empty()) continue;
     told_[k] = 1;
-    results_.journal.report(fmt::format("so far, at t = {:.6g} s: {}", moment.time, guards_[k]->words()));
+    results_.journal.report(fmt::format("so far, at t = {:.6g} s: {}", look.moment.time, guards_[k]->words()));
   }
+  return stops;
 }
 
 void GuardObserver::finish(Formulation const&, TimeState const&, RunStatus) {
@@ -58,7 +68,7 @@ void GuardObserver::finish(Formulation const&, TimeState const&, RunStatus) {
 }
 
 void GuardObserver::save(StateWriter& writer) const {
-  if (guards_.empty()) return;
+  if (!on_) return;
   std::vector<double> state{last_look_};
   state.insert(state.end(), told_.begin(), told_.end());
   writer.put("guards", state);
@@ -68,7 +78,7 @@ void GuardObserver::save(StateWriter& writer) const {
 }
 
 void GuardObserver::load(NamedState& reader, TimeState const& moment) {
-  if (guards_.empty() || !reader.has("guards")) return;  // checkpoints of older versions have none
+  if (!on_ || !reader.has("guards")) return;  // checkpoints of older versions have none
   auto const state = reader.all("guards");
   last_look_ = state[0];
   told_.assign(state.begin() + 1, state.end());
@@ -83,11 +93,12 @@ std::optional<StopRequest> GuardObserver::stop_request() const {
   for (auto const& guard : guards_) {
     if (auto stop_request = guard->stop_request()) return stop_request;
   }
+  if (stops_) return StopRequest{};  // rank 0 has its text
   return std::nullopt;
 }
 
 std::optional<std::vector<GuardNumbers>> GuardObserver::report() const {
-  if (guards_.empty()) return std::nullopt;
+  if (!on_) return std::nullopt;
   std::vector<GuardNumbers> all;
   for (auto const& guard : guards_) {
     if (auto numbers = guard->numbers()) all.push_back(std::move(*numbers));

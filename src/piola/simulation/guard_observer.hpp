@@ -20,11 +20,15 @@ class GuardObserver : public Observer {
   std::optional<std::vector<GuardNumbers>> report() const;
 
  private:
+  bool look_of_guards(GuardInput const& look);
+
   Results results_;
   HistoryObserver const& history_;
   EnergyScale scale_;
   EnergyJumpGuard jump_;
-  Guards guards_;        ///< none if they are off
+  bool on_;
+  Guards guards_;        ///< on rank 0; none if they are off
+  bool stops_ = false;   ///< whether a guard stops the run; equal on all ranks
   bool kicked_ = false;  ///< the case has a one-step initial pressure, whose energy no column contains
   double last_look_ = 0;
   std::vector<double> told_;  ///< by guard: whether its warning has been shown during the run

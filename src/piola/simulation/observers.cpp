@@ -3,12 +3,12 @@
 #include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
 #include "piola/base/version.hpp"
+#include "piola/domain/error_agreement.hpp"
 #include "piola/exec/backend_registry.hpp"
 #include "piola/exec/heap_tuning.hpp"
 #include "piola/input/contact_capabilities.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/particles/particle_record.hpp"
-#include "piola/simulation/driver_and_workers.hpp"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -66,23 +66,28 @@ void HistoryObserver::open(Formulation const& formulation, std::optional<double>
     auto const more = probe.columns();
     columns.insert(columns.end(), more.begin(), more.end());
   }
-  auto const path = results_.folder.empty() ? std::filesystem::path() : results_.folder / "history.csv";
-  if (resume_time) {
-    file_.emplace(path, std::move(columns), *resume_time, mark_);
-    if (!file_->repair_note().empty()) results_.journal.warn(file_->repair_note());
-  } else {
-    file_.emplace(path, std::move(columns));
-  }
+  // The file is that of rank 0; other ranks keep the rows of this part of the run.
+  bool const is_written = !results_.folder.empty() && comm::rank() == 0;
+  auto const path = is_written ? results_.folder / "history.csv" : std::filesystem::path();
+  comm::agree_after([&] {
+    if (resume_time && !path.empty())
+      file_.emplace(path, std::move(columns), *resume_time, mark_);
+    else
+      file_.emplace(path, std::move(columns));
+  });
+  if (!file_->repair_note().empty()) results_.journal.warn(file_->repair_note());
+  auto const& rows = table().rows;
+  last_row_step_ = comm::of_root(rows.empty() ? -1.0 : rows.back()[1]);
 }
 
 void HistoryObserver::write_row(Formulation const& formulation, TimeState const& moment) {
   if (!seen_at_start_ || moment.step > 0) last_ = formulation.diagnose();
   last_step_ = moment.step;
+  last_row_step_ = static_cast<double>(moment.step);
   auto row = diagnostic_values(moment.time, moment.step, moment.dt, *last_);
-  for (auto const& more : probes_.evaluate(formulation, moment.time, evaluate_probes_collectively))
-    row.insert(row.end(), more.begin(), more.end());
+  for (auto const& more : probes_.evaluate(formulation, moment.time)) row.insert(row.end(), more.begin(), more.end());
   std::size_t const rows_before = empty_cells_.rows();
-  empty_cells_.add(file_->append(row), moment.time);
+  comm::agree_after([&] { empty_cells_.add(file_->append(row), moment.time); });
   // The first such row is reported at once, columns that follow it in one warning at the end of the run.
   if (rows_before == 0 && empty_cells_.rows() > 0) results_.journal.warn(empty_cells_.text(0));
 }
@@ -93,8 +98,7 @@ void HistoryObserver::observe(Formulation const& formulation, TimeState const& m
 
 void HistoryObserver::finish(Formulation const& formulation, TimeState const& moment, RunStatus ending) {
   PIOLA_EXPECTS(file_.has_value());
-  auto const& rows = table().rows;
-  bool const written = !rows.empty() && rows.back()[1] == static_cast<double>(moment.step);
+  bool const written = last_row_step_ == static_cast<double>(moment.step);
   // A stopped run gets no extra row, so that the history of a resumed run equals that of an uninterrupted one.
   if (!written && ending != RunStatus::stopped) write_row(formulation, moment);
   if (empty_cells_.rows() > 1) results_.journal.warn(empty_cells_.text(1));
@@ -132,7 +136,7 @@ void FrameObserver::write(Formulation const& formulation, double time, bool fail
   if (!times().empty() && times().back() == time) return;
   writer_.set_fields(fields_of_frames(results_.spec.output, failed));
   FieldCache cache(formulation, results_.particles, FieldCache::Of::local);
-  writer_.write(time, cache, [&](auto const& put) { write_frame_collectively(failed, put); });
+  writer_.write(time, cache);
 }
 
 void FrameObserver::observe(Formulation const& formulation, TimeState const& moment) {
@@ -157,12 +161,12 @@ void FrameObserver::load(NamedState& reader, TimeState const& moment) {
                                     missing.size(), writer_.times().size(), missing.size() == 1 ? "is" : "are"));
 }
 
-CheckpointObserver::CheckpointObserver(Results results, std::vector<Observer*> others, CheckpointRequests orders)
+CheckpointObserver::CheckpointObserver(Results results, std::vector<Observer*> others, WallLimit& wall)
     : results_(std::move(results)),
       schedule_(results_.spec.output.checkpoints_every),
       others_(std::move(others)),
-      orders_(orders),
-      particles_(results_.folder.empty() ? "" : particle_record(results_.particles)) {
+      wall_(wall),
+      particles_(results_.folder.empty() || comm::rank() != 0 ? "" : particle_record(results_.particles)) {
   PIOLA_EXPECTS(std::find(others_.begin(), others_.end(), nullptr) == others_.end());
   schedule_.due(0);  // the state at the start is the case itself
 }
@@ -190,19 +194,20 @@ Checkpoint CheckpointObserver::take(TimeState const& moment) const {
 
 void CheckpointObserver::keep(Formulation const& formulation, TimeState const& moment) {
   auto const start = WallLimit::Clock::now();
-  for (Observer* other : others_) other->sync();
+  comm::on_root([&] {
+    for (Observer* other : others_) other->sync();
+  });
   last_ = checkpoint_path(results_.folder, moment.step);
   keep_checkpoint(results_.folder, take(moment), [&](StateWriter& writer) { formulation.save(writer); });
   exec_host::trim_heap();
-  if (orders_.wall != nullptr)
-    orders_.wall->checkpoint_took(std::chrono::duration<double>(WallLimit::Clock::now() - start).count());
+  wall_.checkpoint_took(std::chrono::duration<double>(WallLimit::Clock::now() - start).count());
 }
 
 void CheckpointObserver::observe(Formulation const& formulation, TimeState const& moment) {
   bool const due = schedule_.due(moment.time);
-  bool const asked = orders_.request != nullptr && moment.step > 0 && orders_.request->exchange(0) != 0;
-  if (due || asked) keep(formulation, moment);
-  if (asked) results_.journal.note(fmt::format("checkpoint at step {}, t = {} s, as asked", moment.step, moment.time));
+  if (due || moment.checkpoint_requested) keep(formulation, moment);
+  if (moment.checkpoint_requested)
+    results_.journal.note(fmt::format("checkpoint at step {}, t = {} s, as asked", moment.step, moment.time));
 }
 
 void CheckpointObserver::before_shortened_step(Formulation const& formulation, TimeState const& moment) {

@@ -8,7 +8,6 @@
 #include "piola/output/frames.hpp"
 #include "piola/output/history.hpp"
 #include "piola/simulation/wall_time_limit.hpp"
-#include <atomic>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -65,6 +64,7 @@ class HistoryObserver : public Observer {
   std::optional<Diagnostics> last_;
   bool seen_at_start_ = false;  ///< last_ is the state before the first step
   std::int64_t last_step_ = -1;
+  double last_row_step_ = -1;  ///< step of the last row; a resumed run has rows from before
 };
 
 /// frames/*.hdf at each due time and at the end; the last state of a failed run always. Those of pictures are written
@@ -88,19 +88,13 @@ class FrameObserver : public Observer {
   FrameWriter writer_;
 };
 
-/// External inputs of the checkpoint observer: a request flag and the wall-time limit, which receives the duration of
-/// each checkpoint. Null: not used.
-struct CheckpointRequests {
-  std::atomic<int>* request = nullptr;  ///< nonzero: a checkpoint is requested; reset to 0 when accepted
-  WallLimit* wall = nullptr;
-};
-
 /// Writes checkpoints/*.h5 at each due time, on request, at the end and when stopped, including the state of the other
 /// observers. Writes one more before a last step that is shortened to the end of the run, from which a run with a later
 /// end continues unaffected.
 class CheckpointObserver : public Observer {
  public:
-  CheckpointObserver(Results results, std::vector<Observer*> others, CheckpointRequests orders);
+  /// wall: receives the duration of each checkpoint.
+  CheckpointObserver(Results results, std::vector<Observer*> others, WallLimit& wall);
   void observe(Formulation const& formulation, TimeState const& moment) override;
   void before_shortened_step(Formulation const& formulation, TimeState const& moment) override;
   void finish(Formulation const& formulation, TimeState const& moment, RunStatus ending) override;
@@ -114,7 +108,7 @@ class CheckpointObserver : public Observer {
   Results results_;
   Schedule schedule_;
   std::vector<Observer*> others_;
-  CheckpointRequests orders_;
+  WallLimit& wall_;
   std::string particles_;       ///< description of the particles for checkpoints
   std::filesystem::path last_;  ///< the newest checkpoint of this run
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/picture_observer.hpp"
+#include "piola/domain/error_agreement.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/pictures/case_scene.hpp"
 #include <algorithm>
@@ -28,8 +29,10 @@ bool PictureObserver::possible(Formulation const& formulation) {
 void PictureObserver::take(Formulation const& formulation, double time) {
   frames_.write(formulation, time);
   numbers_.push_back(frames_.times().size() - 1);
-  read_frames();
-  draw_preview();
+  comm::on_root([&] {
+    read_frames();
+    draw_preview();
+  });
 }
 
 /// Reads the frames of new pictures; in a resumed run also those of the parts before.
@@ -95,11 +98,13 @@ void PictureObserver::finish(Formulation const& formulation, TimeState const& mo
   if (!schedule_.ever() || !possible(formulation)) return;
   bool const taken = !numbers_.empty() && frames_.times()[numbers_.back()] == moment.time;
   if (!taken && ending != RunStatus::stopped) take(formulation, moment.time);
-  if (!pictures_ || pictures_->count() == 0) return;  // nothing new in this part of the run
-  if (ending != RunStatus::stopped)
-    draw_all();
-  else if (!drawn_.contains(pictures_->count() - 1))
-    draw(pictures_->count() - 1);
+  comm::on_root([&] {
+    if (!pictures_ || pictures_->count() == 0) return;  // nothing new in this part of the run
+    if (ending != RunStatus::stopped)
+      draw_all();
+    else if (!drawn_.contains(pictures_->count() - 1))
+      draw(pictures_->count() - 1);
+  });
 }
 
 void PictureObserver::save(StateWriter& writer) const {

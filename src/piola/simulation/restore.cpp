@@ -4,6 +4,7 @@
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
 #include "piola/base/version.hpp"
+#include "piola/domain/error_agreement.hpp"
 #include "piola/exec/backend_registry.hpp"
 #include "piola/input/case_difference.hpp"
 #include "piola/output/checkpoint.hpp"
@@ -76,8 +77,10 @@ std::optional<TimeState> restore(Simulation& s, std::filesystem::path const& fol
   std::vector<std::filesystem::path> abandoned;
   TimeState moment;
   bool const found = use_newest_checkpoint(folder, warnings, [&](Checkpoint& c) {
-    changes = accepted_changes(c, s.spec, folder);
-    refuse_other_particles(c, s.particles, folder);
+    comm::on_root([&] {
+      changes = accepted_changes(c, s.spec, folder);
+      refuse_other_particles(c, s.particles, folder);
+    });
     if (c.cut_to_end && c.time < s.spec.run.end && !cut_too) {
       abandoned.push_back(checkpoint_path(folder, c.step));
       return false;
@@ -91,12 +94,13 @@ std::optional<TimeState> restore(Simulation& s, std::filesystem::path const& fol
               .stepping_seconds = c.stepping_seconds};
     s.formulation->load(*c.in_file);
     for (Observer* observer : observers) observer->load(c.observers, moment);
-    compare_origin(c, s, !changes.empty(), journal);
+    if (comm::rank() == 0) compare_origin(c, s, !changes.empty(), journal);
     return true;
   });
   if (!found) return std::nullopt;
   std::error_code kept_all_the_same;
-  for (auto const& path : abandoned) std::filesystem::remove(path, kept_all_the_same);
+  if (comm::rank() == 0)
+    for (auto const& path : abandoned) std::filesystem::remove(path, kept_all_the_same);
   for (std::string const& warning : warnings) journal.warn(warning);
   for (std::string const& change : changes) journal.note("changed: " + change);
   return moment;

@@ -11,7 +11,7 @@ namespace piola {
 
 /// Restores a simulation and its observers from the newest valid checkpoint in a results folder. Empty if there is
 /// none. A checkpoint after a step shortened to an earlier end of the run is used only if `cut_too`. Throws InputError
-/// if the case or its particles differ from those of the run.
+/// if the case or its particles differ from those of the run. Collective.
 std::optional<TimeState> restore(Simulation& s, std::filesystem::path const& folder, RunLog& journal,
                                  std::vector<Observer*> const& observers, bool cut_too);
 

@@ -3,6 +3,7 @@
 #include "piola/base/contracts.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
+#include "piola/domain/error_agreement.hpp"
 #include "piola/guards/failure_text.hpp"
 #include "piola/guards/formula_failure.hpp"
 #include "piola/input/case_files.hpp"
@@ -10,7 +11,6 @@
 #include "piola/output/atomic_file.hpp"
 #include "piola/output/folder_lock.hpp"
 #include "piola/setup/packed_bodies.hpp"
-#include "piola/simulation/driver_and_workers.hpp"
 #include "piola/simulation/dynamic_relaxation.hpp"
 #include "piola/simulation/guard_observer.hpp"
 #include "piola/simulation/observers.hpp"
@@ -39,15 +39,14 @@ struct RunObservers {
   std::vector<Observer*> also;
   bool written;  // to a folder
 
-  RunObservers(Results const& results, double mass, Listener& listener, CheckpointRequests const& orders,
-               Observer* last)
+  RunObservers(Results const& results, double mass, Listener& listener, WallLimit& wall, Observer* last)
       : history(results),
         guards(results, mass, history),
         steps(results),
         frames(results),
         pictures(results, frames),
         relaxation(results.spec.run, results.particles, mass),
-        checkpoints(results, {&history, &guards, &frames, &pictures, &relaxation}, orders),
+        checkpoints(results, {&history, &guards, &frames, &pictures, &relaxation}, wall),
         progress(listener, results.spec.run.end, results.particles.size(), history),
         written(!results.folder.empty()) {
     if (last != nullptr) also.push_back(last);
@@ -104,10 +103,11 @@ void keep_files(CaseSpec const& spec, std::filesystem::path const& results, RunL
 /// Starts a new run: removes older results from the folder, saves the case, and observes the first state.
 TimeState begin_new(Simulation& s, RunOptions const& options, RunLog& journal, RunObservers& observers) {
   journal.note(start_text(s));
-  if (observers.written) {
-    write_whole_file(options.folder / "case.toml", s.spec.source);
-    keep_files(s.spec, options.folder, journal);
-  }
+  if (observers.written)
+    comm::on_root([&] {
+      write_whole_file(options.folder / "case.toml", s.spec.source);
+      keep_files(s.spec, options.folder, journal);
+    });
   observers.history.open(*s.formulation, {});
   TimeState const moment;
   for (Observer* observer : observers.all()) observer->observe(*s.formulation, moment);
@@ -124,15 +124,18 @@ std::int64_t size_of_state(Formulation const& formulation) {
 std::string hash_of_state(Formulation const& formulation) {
   StateHash hash;
   formulation.save(hash);
+  hash.end_rows();
   return hash.text();
 }
 
 /// Resumes a run: restores the state of the newest valid checkpoint, with permitted changes of the case that do not
 /// affect the state at a given time.
 TimeState begin_again(Simulation& s, RunOptions const& options, RunLog& journal, RunObservers& observers) {
-  Problems problems;
-  compare_with_kept_list(s.spec, options.folder, problems);
-  problems.raise_if_any();
+  comm::on_root([&] {
+    Problems problems;
+    compare_with_kept_list(s.spec, options.folder, problems);
+    problems.raise_if_any();
+  });
   auto moment = restore(s, options.folder, journal, observers.all(), false);
   if (!moment) {
     moment = restore(s, options.folder, journal, observers.all(), true);
@@ -142,8 +145,10 @@ TimeState begin_again(Simulation& s, RunOptions const& options, RunLog& journal,
                     "run with the new end from the start",
                     moment->time));
   }
-  auto const file = options.folder / "case.toml";
-  if (read_text_file(file) != s.spec.source) write_whole_file(file, s.spec.source);
+  comm::on_root([&] {
+    auto const file = options.folder / "case.toml";
+    if (read_text_file(file) != s.spec.source) write_whole_file(file, s.spec.source);
+  });
   journal.note(fmt::format("resumed at step {}, t = {} s; {}", moment->step, moment->time, start_text(s)));
   observers.history.open(*s.formulation, moment->time);
   return *moment;
@@ -212,11 +217,12 @@ std::string repartition_text(RepartitionStatistics const& repartition_statistics
   return text + "; at the end by " + percent(repartition_statistics.last);
 }
 
-/// Adds the results of observers and ranks over the whole run.
-void add_observed(Summary& summary, Simulation const& s, RunObservers const& observers, RunLog& journal) {
+/// Adds the results of observers and ranks over the whole run. Collective.
+void add_observed(Summary& summary, Simulation const& s, RunObservers const& observers, StepTraffic const& traffic,
+                  RunLog& journal) {
   summary.guards = observers.guards.report();
   summary.bits = hash_of_state(*s.formulation);
-  summary.ranks = traffic_on_ranks();
+  summary.ranks = traffic.of_ranks();
   if (!summary.ranks.empty()) summary.repartition_statistics = s.formulation->statistics().repartition;
   if (auto const& repartition_statistics = summary.repartition_statistics;
       repartition_statistics && !repartition_statistics->imbalance.empty())
@@ -226,11 +232,20 @@ void add_observed(Summary& summary, Simulation const& s, RunObservers const& obs
   summary.relaxation = {rest.reached, rest.residual, rest.stops, rest.left};
 }
 
-/// Checks that the folder may be used, and locks it against other processes.
+/// Checks that the folder may be used, and locks it against other processes. Collective; null on other ranks than 0.
 std::unique_ptr<FolderLock> take_folder(Simulation const& s, RunOptions const& options) {
-  if (options.folder.empty()) return nullptr;
-  if (!options.resume) check_results(options.folder, {s.spec.title, options.case_file, options.force});
-  return std::make_unique<FolderLock>(options.folder);
+  std::unique_ptr<FolderLock> lock;
+  if (options.folder.empty()) return lock;
+  comm::on_root([&] {
+    if (!options.resume) check_results(options.folder, {s.spec.title, options.case_file, options.force});
+    lock = std::make_unique<FolderLock>(options.folder);
+  });
+  return lock;
+}
+
+/// log.txt, which only rank 0 writes; empty if nothing is written.
+std::filesystem::path log_file(RunOptions const& options) {
+  return options.folder.empty() || comm::rank() != 0 ? std::filesystem::path() : options.folder / "log.txt";
 }
 
 }  // namespace
@@ -239,32 +254,49 @@ struct CaseRun::Parts {
   Simulation& simulation;
   RunOptions options;
   std::atomic<int> const& stop;
-  std::unique_ptr<FolderLock> lock;  // null if nothing is written
+  std::unique_ptr<FolderLock> lock;  // null if nothing is written, or by other ranks
   RunLog journal;
   WallLimit wall;
   RunObservers observers;
   TimeState moment;
+  StepTraffic traffic;
   LoopResult last;  // how the last part ended
 
+  void write_outcome(CaseOutcome& outcome);
   Parts(Simulation& s, RunOptions const& given, Listener& listener, std::atomic<int> const& stop_request)
       : simulation(s),
         options(given),
         stop(stop_request),
         lock(take_folder(s, given)),
-        journal(given.folder.empty() ? std::filesystem::path() : given.folder / "log.txt", listener),
+        journal(log_file(given), listener),
         wall(given.wall_time, given.started),
-        observers({given.folder, s.spec, s.particles, journal}, s.mass, listener, {given.checkpoint_request, &wall},
-                  given.also) {}
+        observers({given.folder, s.spec, s.particles, journal}, s.mass, listener, wall, given.also) {}
 };
+
+/// Writes summary.json and the end of the log. Throws FileError if results are missing.
+void CaseRun::Parts::write_outcome(CaseOutcome& outcome) {
+  auto const& folder = options.folder;
+  std::string const missing = missing_results(options, observers);
+  if (!missing.empty()) outcome.summary.warnings.push_back(missing);
+  if (!missing.empty() && !last.failure) outcome.summary.status = "incomplete";
+  if (std::filesystem::exists(folder / "frames.hdf.series")) outcome.index = folder / "frames.hdf.series";
+  write_summary(folder / "summary.json", outcome.summary);
+  if (!missing.empty() && !last.failure) throw FileError(missing);
+  journal.note(fmt::format("{} at step {}, t = {} s, {} of wall time", outcome.summary.status, moment.step, moment.time,
+                           duration_text(moment.wall_seconds)));
+  if (last.failure) journal.note(outcome.failure);
+  if (last.out_of_time) journal.note("the wall time is used up");
+}
 
 CaseRun::CaseRun(Simulation& s, RunOptions const& options, Listener& listener, std::atomic<int> const& stop)
     : parts_(std::make_unique<Parts>(s, options, listener, stop)) {
   PIOLA_EXPECTS(s.formulation != nullptr);
   RunLog& journal = parts_->journal;
-  if (!options.resume) {
-    if (!options.folder.empty()) clear_results(options.folder);
-    journal.start(log_headline(s.spec.title));
-  }
+  if (!options.resume)
+    comm::on_root([&] {
+      if (!options.folder.empty()) clear_results(options.folder);
+      journal.start(log_headline(s.spec.title));
+    });
   if (parts_->lock && !parts_->lock->held())
     journal.warn(fmt::format("{}: this file system knows no locks; nothing keeps another run from writing here",
                              options.folder.string()));
@@ -294,8 +326,8 @@ LoopResult const& CaseRun::advance(Pause const& pause) {
   // A cut step changes the steps after it: the case alone no longer determines the results.
   if (pause.exactly && pause.time < run.end) p.simulation.spec.identity.run.clear();
   if (pause.exactly) run.end = std::min(run.end, pause.time);
-  p.last = march(*p.simulation.formulation, run, p.moment, p.observers.all(), {p.stop, p.wall, pause},
-                 &p.observers.relaxation);
+  p.last = march(*p.simulation.formulation, run, p.moment, p.observers.all(),
+                 {p.stop, p.wall, pause, p.options.checkpoint_request}, &p.observers.relaxation, &p.traffic);
   p.last.paused = p.last.paused || (p.last.ending == RunStatus::completed && !p.moment.at_rest &&
                                     p.moment.time < p.simulation.spec.run.end);
   if (p.last.ending == RunStatus::completed && !p.last.paused && p.observers.relaxation.unfinished()) {
@@ -318,7 +350,7 @@ CaseOutcome CaseRun::finish() {
                       .out_of_time = p.last.out_of_time,
                       .last_picture = p.observers.pictures.last(),
                       .index = {}};
-  add_observed(outcome.summary, s, p.observers, p.journal);
+  add_observed(outcome.summary, s, p.observers, p.traffic, p.journal);
   auto const& folder = p.options.folder;
   if (p.last.failure) {
     add_energies(*p.last.failure, history());
@@ -327,17 +359,9 @@ CaseOutcome CaseRun::finish() {
   if (p.last.failure)
     outcome.failure =
         failure_text(*p.last.failure, p.last.causes, p.moment, s.formulation->step_estimate().limit, folder);
-  if (folder.empty()) return outcome;
-  std::string const missing = missing_results(p.options, p.observers);
-  if (!missing.empty()) outcome.summary.warnings.push_back(missing);
-  if (!missing.empty() && !p.last.failure) outcome.summary.status = "incomplete";
-  if (std::filesystem::exists(folder / "frames.hdf.series")) outcome.index = folder / "frames.hdf.series";
-  write_summary(folder / "summary.json", outcome.summary);
-  if (!missing.empty() && !p.last.failure) throw FileError(missing);
-  p.journal.note(fmt::format("{} at step {}, t = {} s, {} of wall time", outcome.summary.status, p.moment.step,
-                             p.moment.time, duration_text(p.moment.wall_seconds)));
-  if (p.last.failure) p.journal.note(outcome.failure);
-  if (p.last.out_of_time) p.journal.note("the wall time is used up");
+  comm::on_root([&] {
+    if (!folder.empty()) p.write_outcome(outcome);
+  });
   p.lock.reset();
   return outcome;
 }

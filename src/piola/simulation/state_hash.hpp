@@ -12,7 +12,6 @@ class StateHash final : public StateWriter {
  public:
   void put(std::string_view name, std::span<double const> values) override;
   void put_rows(std::string_view name, DistributedRows const& rows, std::span<double const> values) override;
-  Rows rows() const override { return Rows::hashed; }
   void end_rows() override;
   /// The hash in 16 hexadecimal digits, after end_rows().
   std::string text() const;

@@ -5,6 +5,7 @@
 #include "piola/observers/time_state.hpp"
 #include "piola/simulation/dynamic_relaxation.hpp"
 #include "piola/simulation/observers.hpp"
+#include "piola/simulation/step_traffic.hpp"
 #include "piola/simulation/wall_time_limit.hpp"
 #include <atomic>
 #include <cstdint>
@@ -31,17 +32,20 @@ struct LoopResult {
   bool paused = false;                  ///< the run can continue from here; ending is stopped
 };
 
-/// Conditions that end the time loop before the end time of the run.
-struct StopConditions {
-  std::atomic<int> const& asked;  ///< by a signal, if nonzero
+/// Requests from outside the time loop: signals, wall time, a pause. On several ranks those of rank 0 count.
+struct LoopControl {
+  std::atomic<int> const& stop;  ///< nonzero: a signal ends the run
   WallLimit& wall;
   Pause pause = {};
+  std::atomic<int>* checkpoint_request = nullptr;  ///< nonzero: a checkpoint is requested; reset to 0 when accepted
 };
 
 /// The time loop: from `moment` to the end time of `run`, or until `relaxation` converges, the physics fails, an
-/// observer objects, or one of `stops` is reached. Observers have read access after each step; they never change the
-/// step.
+/// observer objects, or `control` ends it. Observers have read access after each step; they never change the step.
+/// traffic: of the steps; nullptr: not counted. On several ranks all ranks run the loop alike: everything that decides
+/// is equal on all, and signals and wall time of rank 0 travel with the sums of a step, so that they count from the
+/// step after them on.
 LoopResult march(Formulation& formulation, RunSpec const& run, TimeState& moment, std::span<Observer* const> observers,
-                 StopConditions const& stops, Relaxation* relaxation = nullptr);
+                 LoopControl const& control, Relaxation* relaxation = nullptr, StepTraffic* traffic = nullptr);
 
 }  // namespace piola

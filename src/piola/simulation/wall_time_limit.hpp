@@ -26,7 +26,8 @@ class WallLimit {
   void checkpoint_has(std::int64_t bytes);
 
   double reserve() const;  ///< the reserved time [s]
-  bool reached() const { return exists() && reached_after(seconds_since_start()); }
+  /// steps: taken before the run can end, beside the one in the reserve.
+  bool reached(int steps = 0) const { return exists() && reached_after(seconds_since_start() + steps * slowest_step_); }
   bool reached_after(double elapsed) const { return elapsed + reserve() >= seconds_; }
 
  private:

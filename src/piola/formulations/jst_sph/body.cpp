@@ -2,7 +2,7 @@
 #include "piola/formulations/jst_sph/body.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/domain/bisection.hpp"
-#include "piola/domain/communicator.hpp"
+#include "piola/domain/error_agreement.hpp"
 #include "piola/domain/slot_collectives.hpp"
 #include "piola/domain/sum_over_slots.hpp"
 #include "piola/exec/host_loops.hpp"
@@ -81,15 +81,8 @@ void JstBody::make_pairs(Backend const& backend) {
   pair.stencils = backend.lanes > 1 && images_.empty();
   pair.copies = images_.particles();
   if (comm::is_parallel()) pair.own = DistributedSlots{order_.slots(), order_.particles}.own();
-  comm::RankError trouble;  // each rank checks its local particles
-  try {
-    pairs_ = std::make_unique<ReferencePairs>(*set_, body_, order_, pair);
-  } catch (InputError const& error) {
-    if (!comm::is_parallel()) throw;
-    trouble = {2, error.what()};
-  }
-  if (comm::is_parallel()) trouble = comm::agree(trouble);
-  if (trouble.code != 0) throw comm::CollectiveError(trouble);
+  // Each rank checks its local particles.
+  comm::agree_after([&] { pairs_ = std::make_unique<ReferencePairs>(*set_, body_, order_, pair); });
   state_.regular = pairs_->regular();
   if (state_.regular)
     state_.stencil = pairs_->stencil();

@@ -47,7 +47,7 @@ void check_on_ranks(Body const& body, Options const& options) {
                   body.name, particles, most));
 }
 
-/// Taylor-SPH of one or more independent bodies. All ranks have the same state; rank 0 evaluates and saves it.
+/// Taylor-SPH of one or more independent bodies. All ranks have the same state.
 class Solver final : public Formulation, public ReplicatedObservables, public CoupledParticles {
  public:
   explicit Solver(Assembly const& assembly)
@@ -109,7 +109,6 @@ class Solver final : public Formulation, public ReplicatedObservables, public Co
 
   std::optional<Failure> failure() const override;
   Diagnostics diagnose() const override {
-    if (comm::rank() != 0) return {};
     DiagnosticsSum all;
     std::array<double, 5> more{};
     for (auto const& body : bodies_) {
@@ -205,7 +204,6 @@ std::optional<Failure> Solver::failure() const {
 }
 
 void Solver::save(StateWriter& writer) const {
-  if (comm::rank() != 0) return;
   for (std::size_t k = 0; k < bodies_.size(); ++k) save_body(*bodies_[k], k, writer);
   writer.put("time", std::array{time_});
   writer.put("actions", actions_.state());
