@@ -363,6 +363,11 @@ int check(CheckArguments const& arguments) {
   if (arguments.json && arguments.ranks > 0)
     throw InputError("--json: tells nothing of ranks - leave out --ranks, or --json");
   CasePlan const found = plan(arguments.from);
+  Problems problems;
+  if (arguments.ranks > 1)
+    for (FormulationInfo const& info : formulations_of(found.spec))
+      if (std::string const refused = refusal_of_ranks(info); !refused.empty()) problems.add({}, refused);
+  problems.raise_if_any();
   if (arguments.json)
     write_out(plan_json(found));
   else

@@ -15,20 +15,20 @@ import sys
 import tempfile
 from pathlib import Path
 
-from cases_on_ranks import DESCENDING, ESCAPED, FAILING, MANY_TRIANGLES, OWN_CASES, VARIANTS, WHIRLED
+from cases_on_ranks import DESCENDING, ESCAPED, FAILING, OWN_CASES, TAYLOR, VARIANTS, WHIRLED
 from on_ranks import (ENVIRONMENT, QUICK, SOURCE, checkpoint, contents, differences, expect, finish, piola, short_bar,
                       skip_without_ranks)
 
 STEPS = 20
-QUICK_PART = ["cases/jst_sph/bending_column", "touching bodies", "probed", "adjoint, boxes", "torn plate",
+QUICK_PART = ["cases/jst_sph/bending_column", "touching bodies", "probed", "torn plate",
               "that flow", "damped patch", "deleted", "columns", "large files", "restarts", "words"]
 OFTEN = "run.repartition=3"  # steps
 SHOWN = {"crushed cells": "repeated_steps", "torn plate": "converted_particles",
          "torn plate with probes": "converted_particles",  # columns above zero at the end
          "disc and plate that flow": "eulerian_particles",
          "deleted disc": "deleted_particles", "rubbing bar of AdapTLE": "friction_heat"}
-SHARED = re.compile(r'name = "(jst_sph|nodal|taylor_sph|adaptle)"')  # the formulations of bodies that ranks share
-# What no case of one rank has together: two bodies, a metal, jitter, a mirror plane, loads, a release.
+SHARED = re.compile(r'name = "(jst_sph|nodal|adaptle)"')  # the formulations of bodies that ranks share
+# What no case of one rank has together: two bodies, jitter, a mirror plane, loads, a release.
 MIXED = """title = "Two bodies"
 contact = "none"
 [run]
@@ -42,7 +42,7 @@ initial_velocity = ["50*X", "0", "3 m/s"]
 [[body]]
 name = "copper"
 shape = { box = { min = ["60 mm", "0 mm", "0 mm"], max = ["90 mm", "16 mm", "10 mm"] }, spacing = "2 mm" }
-material = { name = "copper_ofhc", damage = "none" }
+material = { law = "neo_hookean", density = 8960, youngs_modulus = "124 GPa", poissons_ratio = 0.34 }
 formulation = { name = "jst_sph" }
 initial_velocity = ["-3000*(X - 0.06)", "0", "0"]
 [[mirror]]
@@ -82,9 +82,10 @@ every = "10 ms"
 
 
 def able_cases():
-    """Axisymmetric bodies of adaptle are refused on several ranks."""
+    """Axisymmetric bodies of adaptle, and those of taylor_sph, are refused on several ranks."""
     def able(text):
-        return SHARED.search(text) and not ("axisymmetric" in text and 'name = "adaptle"' in text)
+        return (SHARED.search(text) and 'name = "taylor_sph"' not in text
+                and not ("axisymmetric" in text and 'name = "adaptle"' in text))
 
     return [file for file in sorted((SOURCE / "cases").rglob("case.toml")) if able(file.read_text())]
 
@@ -118,7 +119,9 @@ def compare_case(file, name, work, overrides=(), column=None):
     settings = ["--set", end, *settings]
     reference = work / "one"
     one = piola(1, "run", file, "--out", reference, *settings)
-    expect(one.returncode == 0, f"{name} on one rank: {one.stderr}")
+    # Dynamic relaxation that is not at rest at the end fails.
+    codes = (0, 3) if re.search(r"^relax = true", file.read_text(), re.MULTILINE) else (0,)
+    expect(one.returncode in codes, f"{name} on one rank: {one.stderr}")
     expected = contents(reference)
     expect(any(key.startswith("checkpoints") for key in expected), f"{name}: no checkpoint to compare")
     if column:
@@ -128,8 +131,9 @@ def compare_case(file, name, work, overrides=(), column=None):
         drawn = OFTEN in overrides and ranks > 2
         draw_cuts(ranks if drawn else None)
         run = piola(ranks, "run", file, "--out", several, *settings, threads=threads)
-        expect(run.returncode == 0, f"{name} on {ranks} ranks: {run.stdout}{run.stderr}")
-        expect(run.stdout.count("completed at") == 1, f"{name} on {ranks} ranks speaks with several voices")
+        expect(run.returncode == one.returncode, f"{name} on {ranks} ranks: {run.stdout}{run.stderr}")
+        ends = run.stdout.count("completed at") + run.stdout.count("failed at")
+        expect(ends == 1, f"{name} on {ranks} ranks prints {ends} reports")
         different = differences(expected, contents(several)) if several.is_dir() else ["everything"]
         expect(not different, f"{name} on {ranks} ranks with {threads} threads differs in {different[:8]}")
         if drawn and expect((several / "summary.json").is_file(), f"{name}: no summary"):
@@ -178,9 +182,9 @@ def compare_own_restart(name, text, work):
 
 def check_words(bar, work):
     """One message, whoever finds what is wrong, and the exit code of one rank."""
-    (work / "many.toml").write_text(MANY_TRIANGLES)
+    (work / "taylor.toml").write_text(TAYLOR)
     for words, code, text in (
-            (["run", work / "many.toml", "--out", work / "no"], 2, "triangulations are made by every rank"),
+            (["run", work / "taylor.toml", "--out", work / "no"], 2, 'the formulation "taylor_sph" runs on one rank'),
             (["run", bar, "--set", "run.ende=1"], 2, "is not a key of run"),
             (["run", "nothing.toml"], 2, "no such case file"),
             (["check", bar], 2, "start this command without mpirun"),
@@ -235,7 +239,7 @@ with tempfile.TemporaryDirectory() as folder:
         compare_case(work / "mixed.toml", "two bodies", work)
     if "restarts" in chosen:
         compare_restarts(bar, work)
-        for name in ("touching bodies", "mirrored copper", "crushed cells", "adjoint, triangles", "torn plate",
+        for name in ("touching bodies", "mirrored copper", "crushed cells", "torn plate",
                      "deleted disc", "large files"):
             compare_own_restart(name, OWN_CASES[name], work / f"restart_{name.replace(chr(32), chr(95))}")
         draw_cuts(1)

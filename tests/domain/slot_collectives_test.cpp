@@ -8,12 +8,6 @@
 namespace piola {
 namespace {
 
-TEST(OwnSlots, OfOneRankAreAll) {
-  Range const part = even_local_range({16, 1000});
-  EXPECT_EQ(part.first, 16);
-  EXPECT_EQ(part.last, 1000);
-}
-
 TEST(OwnSlots, OfOneRankStayAsTheyAre) {
   Field field("Velocity", "m/s", 2, Role::evolved);
   field.allocate(100, 0);

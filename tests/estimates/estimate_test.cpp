@@ -169,7 +169,6 @@ TEST(Estimate, RanksDivideWhatIsDistributed) {
   EXPECT_GE(memory_of_rank(cost, cube, 8), 1e9);
   std::string const short_rod = test::replaced(test::replaced(rod, "1500 ms", "1 ms"), "neo_hookean", "linear_elastic");
   EXPECT_GT(estimate_of(short_rod).distributed.at(0), 0);
-  EXPECT_EQ(estimate_of(test::replaced(short_rod, "\"nodal\"", "\"taylor_sph\"")).distributed.at(0), 0);
 }
 
 TEST(Estimate, PartsKeepSpacingAndWalls) {

@@ -27,7 +27,7 @@ inline ParticleSet make_plate(int n) {
 }
 
 /// The interface of a formulation around the motion that a test prescribes.
-class FakeFormulation : public Formulation, public ReplicatedObservables {
+class FakeFormulation : public Formulation, public SingleRankObservables {
  public:
   StepEstimate step_estimate() const override {
     StepEstimate rule;

@@ -13,43 +13,8 @@
 #include <vector>
 
 /// Collectives for a body whose slots are numbered alike on all ranks, each of which owns some of them. Halos are in
-/// halo_plan.hpp. Every function except even_local_range() is collective; on one rank none communicates.
+/// halo_plan.hpp. Every function is collective; on one rank none communicates.
 namespace piola {
-
-/// The part of `whole` that this rank works on when the range is divided evenly among ranks.
-Range even_local_range(Range whole);
-
-/// Replicates `size` values per slot, of slot i at data[i * size]. In: the values in even_local_range(whole); out:
-/// those of the whole range. Collective.
-void allgather_slots(double* data, std::ptrdiff_t size, Range whole);
-
-/// `size` values per slot of the range `whole`, of slot i at data[i * size]. Does not own the data.
-struct SlotArray {
-  double* data;
-  std::ptrdiff_t size;
-  Range whole;
-};
-/// As above for several arrays in one allgather. `said` is appended to the message; returns the `said` of all ranks, in
-/// rank order.
-std::vector<double> allgather_slots(std::span<SlotArray const> arrays, std::span<double const> said = {});
-
-/// As above, and reduces `sum` over all ranks in the same message. T has `void add(T const&)`, e.g. exact sums.
-/// Collective.
-template <class T>
-void allgather_slots_and_sum(std::span<SlotArray const> arrays, T& sum) {
-  using Numbers = std::array<double, sizeof(T) / 8>;
-  static_assert(std::is_trivially_copyable_v<T> && sizeof(Numbers) == sizeof(T), "it travels as numbers");
-  if (!comm::is_parallel()) return;
-  Numbers said = std::bit_cast<Numbers>(sum);
-  std::vector<double> const all = allgather_slots(arrays, said);
-  for (std::size_t first = 0; first < all.size(); first += said.size()) {
-    std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(first), said.size(), said.begin());
-    if (first == 0)
-      sum = std::bit_cast<T>(said);
-    else
-      sum.add(std::bit_cast<T>(said));
-  }
-}
 
 /// Partition of the slots of a body by even_range_of_rank(); the first `particles` of all slots hold a particle.
 struct DistributedSlots {

@@ -140,12 +140,6 @@ double bytes_of(Formulation const& formulation, CostMeter const& meter) {
   return std::max(meter.bytes(), static_cast<double>(formulation.statistics().memory_bytes));
 }
 
-/// Whether ranks divide the memory of a body among themselves; else each rank takes all of it.
-bool is_distributed(BodySpec const& body) {
-  auto const info = find_formulation(body.formulation.name);
-  return info && info->observes_locally;
-}
-
 double particles_of(Body const& body) { return static_cast<double>(body.last - body.first); }
 
 /// Cost of a body, scaled from that of a part of it.
@@ -205,7 +199,7 @@ std::pair<Estimate, Trial> estimate(Simulation& s, CostMeter const& meter) {
   double const bytes = bytes_of(*s.formulation, meter);
   e.memory = program_bytes + static_cast<double>(s.particles.bytes()) + bytes;
   for (std::size_t b = 0; b < s.spec.bodies.size(); ++b)
-    e.distributed.push_back(is_distributed(s.spec.bodies[b]) ? bytes * particles_of(s.particles.bodies[b]) / n : 0);
+    e.distributed.push_back(bytes * particles_of(s.particles.bodies[b]) / n);
   e.row_seconds = seconds_of_row(*s.formulation);
   double const change = e.step > trial.step ? 0 : trial.earlier / trial.step - 1;  // 0: as the rule foresees
   count_steps(s.spec, n, change, e);
@@ -230,7 +224,7 @@ Estimate estimate_from_parts(CaseSpec const& spec, ParticleSet const& particles,
     e.step_seconds += cost.step_seconds;
     e.row_seconds += cost.row_seconds;
     e.memory += cost.bytes;
-    e.distributed.push_back(is_distributed(spec.bodies[b]) ? cost.bytes : 0);
+    e.distributed.push_back(cost.bytes);
     e.disk += cost.disk;
   }
   e.step = std::min(e.rule.settled, spec.run.max_step);

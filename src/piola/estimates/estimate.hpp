@@ -45,8 +45,8 @@ std::pair<Estimate, Trial> estimate(Simulation& simulation, CostMeter const& met
 /// InputError if the formulation rejects the case.
 Estimate estimate_from_parts(CaseSpec const& spec, ParticleSet const& particles, int threads);
 
-/// Largest memory of one of `ranks` ranks, that of rank 0 [bytes]. All ranks store the particle sets; formulations that
-/// are distributed store the local particles and their ghosts.
+/// Largest memory of one of `ranks` ranks, that of rank 0 [bytes]. All ranks store the particle sets, and of
+/// formulations the local particles and their ghosts.
 double memory_of_rank(Estimate const& cost, ParticleSet const& particles, int ranks);
 
 /// Number of particles from which on a case is estimated from parts.

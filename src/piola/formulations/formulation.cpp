@@ -14,10 +14,6 @@ FieldInfo const& info_of(std::span<FieldInfo const> fields, std::string_view nam
   return *found;
 }
 
-std::optional<std::vector<std::int64_t>> ReplicatedObservables::local_particles() const {
-  return comm::rank() == 0 ? std::nullopt : std::optional<std::vector<std::int64_t>>(std::in_place);
-}
-
 void StateWriter::put_sized(std::string_view count, std::string_view name, std::span<double const> values) {
   put(count, std::array{static_cast<double>(values.size())});
   put(name, values);

@@ -49,12 +49,11 @@ class Observables {
   virtual StepBound step_bound() const = 0;
 };
 
-/// Observables of bodies of one formulation without rigid shapes whose state is replicated on all ranks: rank 0
-/// evaluates all particles.
-class ReplicatedObservables : public Observables {
+/// Observables of bodies without rigid shapes, of one formulation that runs on one rank.
+class SingleRankObservables : public Observables {
  public:
   std::vector<FieldInfo> fields_of(std::size_t /*body*/) const override { return fields(); }
-  std::optional<std::vector<std::int64_t>> local_particles() const override;
+  std::optional<std::vector<std::int64_t>> local_particles() const override { return std::nullopt; }
   void sample_local(std::string_view field, std::span<double> values) const override { sample(field, values); }
   std::vector<RigidState> rigids() const override { return {}; }
 };

@@ -97,6 +97,15 @@ std::string refusal(FormulationInfo const& info, std::string_view what) {
          one + " or change body.formulation";
 }
 
+std::string refusal_of_ranks(FormulationInfo const& info) {
+  if (info.ranks) return "";
+  std::vector<std::string_view> able;
+  for (FormulationInfo const& other : infos)
+    if (other.ranks) able.push_back(other.name);
+  return "the formulation " + in_quotes(info.name) + " runs on one rank (on several: " + joined(able) +
+         ") - start it without mpirun, where run.threads takes all cores, or change body.formulation";
+}
+
 std::string_view word_of(FormulationSpec const& spec, std::span<Choice const> choices, std::string_view name) {
   auto const given = spec.words.find(name);
   if (given != spec.words.end()) return given->second;

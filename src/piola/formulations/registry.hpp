@@ -51,9 +51,7 @@ struct FormulationInfo {
   bool surface_supports = false;  ///< whether supports can hold the surface itself, where particles lie inside
   bool minimises = false;         ///< whether it has Formulation::descend()
   bool axisymmetric = false;      ///< whether bodies may be axisymmetric
-  /// Whether observers evaluate local particles on each rank; else every rank has the state of all bodies, and rank 0
-  /// observes alone.
-  bool observes_locally = false;
+  bool ranks = true;              ///< whether its bodies may be distributed over ranks
   std::span<FormulaInfo const> formulas = {};  ///< optional formulas
   std::span<RemovedSetting const> removed = {};
 };
@@ -64,6 +62,8 @@ std::optional<FormulationInfo> find_formulation(std::string_view name);
 /// Error message for a case that uses an unsupported feature. `what`: "cracks", "mirrors", "parts", "rings", "packed
 /// clouds", "contact", "rigid shapes" or "axisymmetric bodies".
 std::string refusal(FormulationInfo const& info, std::string_view what);
+/// Error message for a run on several ranks; empty if the formulation can be distributed.
+std::string refusal_of_ranks(FormulationInfo const& info);
 
 /// Settings of a formulation in a case file: only the given keys, checked against FormulationInfo.
 struct FormulationSpec {

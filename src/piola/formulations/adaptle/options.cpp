@@ -351,7 +351,6 @@ FormulationInfo info() {
   info.axisymmetric = true;
   info.contact = true;
   info.can_be_coupled = true;
-  info.observes_locally = true;
   info.formulas = formulas;
   return info;
 }

@@ -89,7 +89,6 @@ FormulationInfo info() {
       diagnostics};
   info.cell_volumes = true;
   info.can_be_coupled = true;
-  info.observes_locally = true;
   info.removed = removed;
   return info;
 }

@@ -84,7 +84,6 @@ FormulationInfo info() {
       usable_laws(),
       diagnostics};
   info.can_be_coupled = true;
-  info.observes_locally = true;
   info.parts = true;
   info.surface_supports = true;
   info.minimises = true;

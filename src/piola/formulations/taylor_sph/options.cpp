@@ -94,6 +94,7 @@ FormulationInfo info() {
       diagnostics};
   info.cracks = true;
   info.mirrors = false;
+  info.ranks = false;  // its cells and triangulations cover whole bodies
   info.can_be_coupled = true;
   info.off_lattice = false;  // its hourglass control needs boxes of a lattice
   return info;

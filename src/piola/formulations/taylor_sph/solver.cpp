@@ -2,7 +2,6 @@
 #include "piola/formulations/taylor_sph/solver.hpp"
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
-#include "piola/domain/communicator.hpp"
 #include "piola/formulations/common/body_resultants.hpp"
 #include "piola/formulations/common/diagnostics_sum.hpp"
 #include "piola/formulations/common/field_checkpoint.hpp"
@@ -36,19 +35,8 @@ void check(Assembly const& assembly) {
   problems.raise_if_any();
 }
 
-/// Every rank makes all cells, one after the other.
-void check_on_ranks(Body const& body, Options const& options) {
-  constexpr std::int64_t most = 2'000'000;
-  std::int64_t const particles = body.last - body.first;
-  if (!comm::is_parallel() || options.lattice_cells || particles <= most) return;
-  throw InputError(
-      fmt::format("body '{}' has {} particles, and triangulations are made by every rank (allowed on several: {} "
-                  "particles) - take virtual_particles = \"lattice_cells\", or start it without mpirun",
-                  body.name, particles, most));
-}
-
-/// Taylor-SPH of one or more independent bodies. All ranks have the same state.
-class Solver final : public Formulation, public ReplicatedObservables, public CoupledParticles {
+/// Taylor-SPH of one or more independent bodies.
+class Solver final : public Formulation, public SingleRankObservables, public CoupledParticles {
  public:
   explicit Solver(Assembly const& assembly)
       : particles_(assembly.particles.size()),
@@ -58,7 +46,6 @@ class Solver final : public Formulation, public ReplicatedObservables, public Co
     for (std::size_t k = 0; k < assembly.particles.bodies.size(); ++k) {
       bool const whole = is_whole_lattice(assembly.particles, assembly.particles.bodies[k]);
       Options const options = read_options(assembly.formulations[k], D_, assembly.cfl, whole);
-      check_on_ranks(assembly.particles.bodies[k], options);
       bodies_.push_back(std::make_unique<TaylorBody>(assembly, k, options, backend));
     }
     set_ = assembly.particles;
@@ -132,7 +119,6 @@ class Solver final : public Formulation, public ReplicatedObservables, public Co
   Observables const& observables() const override { return *this; }
   std::vector<FieldInfo> fields() const override { return output_field_names(); }
   void sample(std::string_view field, std::span<double> values) const override {
-    if (comm::rank() != 0) return;
     for (std::size_t k = 0; k < bodies_.size(); ++k)
       taylor_sph::sample(*bodies_[k], static_cast<int>(k), field, values);
   }

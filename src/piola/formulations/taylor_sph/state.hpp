@@ -106,14 +106,6 @@ struct CellMeasures {
   double spacing = 0;     ///< smallest distance that a wave may cross in a step [m]
   double dilation = 1;    ///< largest volume of a real particle over that at the start
   bool inverted = false;  ///< a cell is inverted
-
-  /// Merges the measures of other cells; the dilation is of particles.
-  void add(CellMeasures const& other) {
-    strain = maximum(strain, other.strain);
-    quality = minimum(quality, other.quality);
-    spacing = minimum(spacing, other.spacing);
-    inverted = inverted || other.inverted;
-  }
 };
 
 struct BodyState {
