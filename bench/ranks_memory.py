@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What each rank of a run takes of memory at most: a cube of N^3 particles, a step or a few, with frames, checkpoints and
-rows of the history. Or, of adaptle, two halves of it that collide: with `impact` as they are, total-Lagrangian; with `flow` the second
+"""What each rank of a run takes of memory at most, and its messages and collectives in a step: a cube of N^3 particles, a
+step or a few, with frames, checkpoints and rows of the history. Or, of adaptle, two halves of it that collide: with `impact` as they are, total-Lagrangian; with `flow` the second
 one is Eulerian.
 
 Usage: bench/ranks_memory.py PROGRAM [N [RANKS,RANKS... [FORMULATION [jitter|impact|flow]]]]  (default: 80, 1,2,4, jst_sph)
 PROGRAM must know MPI (PIOLA_MPI, or piola-mpi of PIOLA_MPI_BESIDE). Ranks have one thread each; there may be more of them
 than cores.
 """
+import json
 import resource
 import subprocess
 import sys
@@ -80,6 +81,16 @@ def largest_of_ranks(program, ranks, case, folder):
     return sorted((1024 * int(line) for line in report.read_text().split()), reverse=True)
 
 
+def counts_of_step(run):
+    """Of the rank with the most, from summary.json; nothing on one rank."""
+    ranks = json.loads((run / "summary.json").read_text()).get("ranks", [])
+    if not ranks:
+        return ""
+    most = {key: max(rank[key] for rank in ranks) for key in ("messages", "bytes", "collectives", "replicated_bytes")}
+    return ("; in a step {messages:.1f} messages of {:.0f} kB in all, {collectives:.1f} collectives, {:.1f} kB "
+            "replicated".format(most["bytes"] / 1e3, most["replicated_bytes"] / 1e3, **most))
+
+
 def main():
     if sys.argv[1] == "--rank":
         run_as_rank(sys.argv[2], sys.argv[3:])
@@ -90,8 +101,8 @@ def main():
         write_case(case, n, formulation, more)
         for ranks in map(int, counts.split(",")):
             found = largest_of_ranks(program, ranks, case, Path(folder))
-            print(f"{n}^3 of {formulation} on {ranks}: " + ", ".join(f"{size / 1e6:.0f}" for size in found) + " MB",
-                  flush=True)
+            print(f"{n}^3 of {formulation} on {ranks}: " + ", ".join(f"{size / 1e6:.0f}" for size in found) + " MB"
+                  + counts_of_step(Path(folder) / "run"), flush=True)
 
 
 if __name__ == "__main__":
