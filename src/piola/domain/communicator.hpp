@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -62,6 +63,21 @@ void allreduce_or(std::span<double> values);
 std::vector<double> gather(std::span<double const> values);
 /// Allgather in place: rank r contributes values[starts[r]] to values[starts[r + 1] - 1].
 void allgather(std::span<double> values, std::span<std::size_t const> starts);
+/// The items of all ranks, in rank order, of which each passes one.
+template <class T>
+std::vector<T> allgather_item(T const& own) {
+  constexpr std::size_t bytes = sizeof(double), width = sizeof(T) / bytes;
+  static_assert(std::is_trivially_copyable_v<T> && width * bytes == sizeof(T), "it travels as numbers");
+  auto const ranks = static_cast<std::size_t>(size());
+  std::vector<double> numbers(ranks * width);
+  std::vector<std::size_t> starts{0};
+  while (starts.size() <= ranks) starts.push_back(starts.back() + width);
+  std::memcpy(&numbers[static_cast<std::size_t>(rank()) * width], &own, sizeof own);
+  allgather(numbers, starts);
+  std::vector<T> all(ranks);
+  std::memcpy(static_cast<void*>(all.data()), numbers.data(), numbers.size() * bytes);
+  return all;
+}
 /// Broadcasts `bytes` bytes from rank 0 to all ranks.
 void broadcast_bytes(void* data, std::size_t bytes);
 /// All-to-all: sends to[r] to rank r. Returns the indices received, by sending rank.

@@ -35,8 +35,8 @@ class QuantisedBounds {
 };
 
 /// Determines the spatial halo from cells whose edge is the search radius. A particle reads particles of its own and
-/// the adjacent cells. Every rank holds 16 bytes about each occupied cell of every other rank, from which it derives
-/// which ranks need the particles of its cells.
+/// the adjacent cells. A rank derives which ranks need its particles from its local cells and the remote cells around
+/// them.
 class HaloCells {
  public:
   /// Reasons for reading, as bits: Eulerian particles in or next to the cell, contact between bodies.

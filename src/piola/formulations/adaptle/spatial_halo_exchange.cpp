@@ -5,6 +5,7 @@
 #include "piola/formulations/adaptle/spatial_lists.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <iterator>
 
@@ -29,7 +30,7 @@ std::vector<std::size_t> starts_of(std::size_t own) {
 }  // namespace
 
 SpatialHaloExchange::SpatialHaloExchange(std::span<Partition const> cuts)
-    : sends_(at(comm::size())), receives_(at(comm::size())) {
+    : others_(at(comm::size())), is_near_(others_.size()), sends_(at(comm::size())), receives_(at(comm::size())) {
   for (Partition const& body : cuts)
     for (Index i = body.own().first; i < body.own().last; ++i) own_.push_back(i);
 }
@@ -41,6 +42,14 @@ std::vector<double> SpatialHaloExchange::coordinates(System const& s, std::size_
   for (Index const slot : own_) *to++ = s.position[3 * at(slot) + axis];
   comm::allgather(all, starts);
   return all;
+}
+
+SpatialHaloExchange::Extent SpatialHaloExchange::own_extent(System const& s) const {
+  Extent extent{bounds_of(s.position, 3, own(), s.dimension)};
+  for (Index const slot : own_)
+    for (int c = 0; c < s.dimension; ++c)
+      if (!std::isfinite(s.position[std::ptrdiff_t{3} * slot + c])) extent.has_not_a_number = 1;
+  return extent;
 }
 
 void SpatialHaloExchange::forget() {
@@ -71,18 +80,49 @@ void SpatialHaloExchange::find_own_cells(System const& s, CellList const& grid) 
   }
 }
 
-/// Afterwards all ranks have the cells of all.
-void SpatialHaloExchange::allgather_cells() {
+/// Finds the remote ranks that are near, and the local cells near each of them: those from which that rank derives what
+/// its cells and the adjacent ones read and export.
+void SpatialHaloExchange::select_cells(CellList const& grid, std::span<Extent const> extents) {
+  constexpr Index layers = 3;  // adjacent cells, those that these read, and those around them
+  auto const box_of = [&](Extent const& extent) {
+    if (extent.has_not_a_number > 0) return CellBox{{0, 0, 0}, grid.shape()};
+    return CellBox{grid.steps_to(extent.bounds.low), grid.steps_to(extent.bounds.high)};
+  };
+  auto const is_empty = [](Extent const& e) { return e.has_not_a_number == 0 && e.bounds.low[0] > e.bounds.high[0]; };
+  auto const own = at(comm::rank());
+  for (std::size_t rank = 0; rank < extents.size(); ++rank) {
+    CellBox const box = box_of(extents[rank]);
+    others_[rank].clear();
+    is_near_[rank] = rank != own && !is_empty(extents[own]) && !is_empty(extents[rank]) &&
+                     box.is_within(box_of(extents[own]), layers);
+    for (std::size_t k = 0; k < mine_.size() && is_near_[rank]; ++k) {
+      std::array<Index, 3> const place = grid.steps_to(mine_[k].cell);
+      if (CellBox{place, place}.is_within(box, layers)) others_[rank].push_back(mine_[k]);
+    }
+  }
+}
+
+/// Exchanges the cells of select_cells(): first their numbers.
+void SpatialHaloExchange::exchange_cells() {
   constexpr std::size_t width = sizeof(HaloCells::Cell) / sizeof(double);
   static_assert(width * sizeof(double) == sizeof(HaloCells::Cell), "a cell travels as numbers");
-  starts_ = starts_of(mine_.size());
-  all_.resize(starts_.back());
-  std::vector<double> numbers(starts_.back() * width);
-  std::vector<std::size_t> starts;
-  for (std::size_t const start : starts_) starts.push_back(start * width);
-  std::memcpy(numbers.data() + starts[at(comm::rank())], mine_.data(), mine_.size() * sizeof(HaloCells::Cell));
-  comm::allgather(numbers, starts);
-  std::memcpy(static_cast<void*>(all_.data()), numbers.data(), numbers.size() * sizeof(double));
+  for (std::size_t rank = 0; rank < others_.size(); ++rank) {
+    sends_[rank].values.assign(is_near_[rank] ? 1 : 0, static_cast<double>(others_[rank].size()));
+    receives_[rank].values.assign(is_near_[rank] ? 1 : 0, 0);
+  }
+  send();
+  for (std::size_t rank = 0; rank < others_.size(); ++rank) {
+    std::vector<double>&out = sends_[rank].values, &in = receives_[rank].values;
+    out.resize(others_[rank].size() * width);
+    std::memcpy(out.data(), others_[rank].data(), out.size() * sizeof(double));
+    others_[rank].resize(is_near_[rank] ? static_cast<std::size_t>(in.front()) : 0);
+    in.resize(others_[rank].size() * width);
+  }
+  send();
+  for (std::size_t rank = 0; rank < others_.size(); ++rank) {
+    std::vector<double> const& in = receives_[rank].values;
+    std::memcpy(static_cast<void*>(others_[rank].data()), in.data(), in.size() * sizeof(double));
+  }
 }
 
 /// Selects the particles to send to each rank: those within one cell edge of the bounds of that rank's reading
@@ -154,13 +194,16 @@ void SpatialHaloExchange::send_positions(System const& s) {
     }
 }
 
-void SpatialHaloExchange::meet(System const& s, CellList const& grid, HaloCells& marks) {
+void SpatialHaloExchange::meet(System const& s, CellList const& grid, std::span<Extent const> extents,
+                               HaloCells& marks) {
   forget();
   find_own_cells(s, grid);
-  allgather_cells();
+  select_cells(grid, extents);
+  exchange_cells();
   marks.start(grid.shape(), s.dimension);
   for (std::size_t rank = 0; rank < sends_.size(); ++rank)
-    for (std::size_t k = starts_[rank]; k < starts_[rank + 1]; ++k) marks.add(all_[k], static_cast<int>(rank));
+    for (HaloCells::Cell const& cell : rank == at(comm::rank()) ? mine_ : others_[rank])
+      marks.add(cell, static_cast<int>(rank));
   marks.finish(SpatialLists::touching(s));
   select_sends(grid, marks);
   send_counts();

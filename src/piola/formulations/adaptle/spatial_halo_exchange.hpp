@@ -10,8 +10,9 @@
 
 namespace piola::adaptle {
 
-/// Spatial halo exchange. In each step: allgather of the occupied cells; each rank derives which of its particles other
-/// ranks need; positions are sent first, other fields later in the step. All void functions are collective.
+/// Spatial halo exchange. In each step ranks whose particles are near each other exchange their occupied cells there;
+/// each rank derives which of its particles other ranks need; positions are sent first, other fields later in the step.
+/// All void functions are collective.
 class SpatialHaloExchange {
  public:
   /// cuts: partition of each body.
@@ -22,9 +23,16 @@ class SpatialHaloExchange {
   /// Coordinates of all particles of a run along an axis, unordered.
   std::vector<double> coordinates(System const& system, std::size_t axis) const;
 
-  /// Exchanges cells and positions. Precondition: positions and cells of local particles are set. Afterwards `marks` is
-  /// complete, the positions of spatial ghosts are set, and received() lists these.
-  void meet(System const& system, CellList const& grid, HaloCells& marks);
+  /// Where the particles of a rank are.
+  struct Extent {
+    CoordinateBounds bounds{};    ///< of finite coordinates
+    double has_not_a_number = 0;  ///< 1 if a coordinate is not finite
+  };
+  Extent own_extent(System const& system) const;
+  /// Exchanges cells and positions. extents: of all ranks. Precondition: positions and cells of local particles are
+  /// set. Afterwards `marks` is complete for local cells and those adjacent, the positions of spatial ghosts are set,
+  /// and received() lists these.
+  void meet(System const& system, CellList const& grid, std::span<Extent const> extents, HaloCells& marks);
   SlotList received() const { return of(received_); }
   /// Local particles and spatial ghosts, in the order of ids.
   SlotList present() const { return of(present_); }
@@ -69,20 +77,32 @@ class SpatialHaloExchange {
   };
   static SlotList of(std::vector<Index> const& slots) { return {static_cast<Index>(slots.size()), slots.data()}; }
   static std::size_t width_of(std::vector<FieldPart> const& parts);
+  /// Cells of a rank along each axis: a box of cells that holds them.
+  struct CellBox {
+    std::array<Index, 3> low, high;
+    bool is_within(CellBox const& other, Index layers) const {
+      for (std::size_t c = 0; c < 3; ++c)
+        if (low[c] > other.high[c] + layers || high[c] < other.low[c] - layers) return false;
+      return true;
+    }
+  };
   void find_own_cells(System const& system, CellList const& grid);
-  void allgather_cells();
+  void select_cells(CellList const& grid, std::span<Extent const> extents);
+  void exchange_cells();
   void select_sends(CellList const& grid, HaloCells const& marks);
   void send_counts();
   void send();
   void send_positions(System const& system);
 
   std::vector<Index> own_, received_, present_;
-  std::vector<HaloCells::Cell> mine_, all_;  ///< cells; all_: rank after rank
-  std::vector<std::size_t> starts_;          ///< indices into all_
-  std::vector<Index> number_of_;             ///< per cell: index into mine_
-  std::vector<Reader> readers_;              ///< of mine_[0], then those of mine_[1], and so on, rank by rank
-  std::vector<std::size_t> first_reader_;    ///< of each of mine_, one more at the end
-  std::vector<Side> sends_, receives_;       ///< per rank
+  std::vector<HaloCells::Cell> mine_;  ///< own cells
+  std::vector<std::vector<HaloCells::Cell>>
+      others_;                             ///< per rank: remote cells near local ones; before: local cells to send
+  std::vector<char> is_near_;              ///< per rank
+  std::vector<Index> number_of_;           ///< per cell: index into mine_
+  std::vector<Reader> readers_;            ///< of mine_[0], then those of mine_[1], and so on, rank by rank
+  std::vector<std::size_t> first_reader_;  ///< of each of mine_, one more at the end
+  std::vector<Side> sends_, receives_;     ///< per rank
 };
 
 }  // namespace piola::adaptle

@@ -14,10 +14,11 @@ namespace piola::adaptle {
 /// spatial ghosts.
 class SpatialLists {
  public:
-  /// Input from other ranks: the spatial halo exchange (null on one rank) and the bounds of all particles.
+  /// Input from other ranks: the spatial halo exchange (null on one rank), and where all particles are.
   struct RemoteParticles {
     SpatialHaloExchange* near = nullptr;
-    CoordinateBounds bounds{};  ///< of all particles
+    CoordinateBounds bounds{};                              ///< of all particles
+    std::vector<SpatialHaloExchange::Extent> extents = {};  ///< of each rank
   };
   /// busy: increased by the time of the work on local particles [s].
   void build(System const& system, RemoteParticles const& others, Backend const& backend, double& busy);

@@ -83,20 +83,21 @@ StepHaloExchanges::ReferenceHalo StepHaloExchanges::reference_halo(System const&
   return halo;
 }
 
-/// Failures travel with the bounds of all particles.
+/// Failures travel with the extents of the ranks.
 SpatialLists::RemoteParticles StepHaloExchanges::before_lists(System const& s) {
-  struct StepReduction {
+  struct RankState {
     FirstFailure first;
-    CoordinateBounds bounds;
-    void add(StepReduction const& other) {
-      first.add(other.first);
-      bounds.add(other.bounds);
-    }
-  } said{FirstFailure(*s.failure), {}};
-  if (SpatialLists::needed(s)) said.bounds = bounds_of(s.position, 3, near_.own(), s.dimension);
-  comm::allreduce_sum(said);
-  said.first.put(*s.failure);
-  return {&near_, said.bounds};
+    SpatialHaloExchange::Extent extent;
+  } own{FirstFailure(*s.failure), {}};
+  if (SpatialLists::needed(s)) own.extent = near_.own_extent(s);
+  SpatialLists::RemoteParticles others{&near_, {}, {}};
+  for (RankState const& rank : comm::allgather_item(own)) {
+    own.first.add(rank.first);
+    others.bounds.add(rank.extent.bounds);
+    others.extents.push_back(rank.extent);
+  }
+  own.first.put(*s.failure);
+  return others;
 }
 
 void StepHaloExchanges::after_prediction(System const& s) {
