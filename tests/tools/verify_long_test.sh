@@ -36,7 +36,7 @@ expect() {  # expect STATUS TEXT STAGE...
 called() { grep -q -- "$1" "$work/calls" || { echo "not called: $1"; failures=$((failures + 1)); }; }
 
 expect 1 "tsan     never" --last
-stages="clang asan tsan sets ranks fuzz readers verify pictures browser tidy site"
+stages="clang asan tsan sets ranks mutants fuzz readers verify pictures browser tidy site"
 expect 2 "unknown stage 'tsam' (allowed: $stages, or --last)" tsam
 expect 0 "10 passed, 0 failed" asan           # packages, configure, build and seven tests
 expect 0 "11 passed, 0 failed" tsan
