@@ -364,9 +364,7 @@ int check(CheckArguments const& arguments) {
     throw InputError("--json: tells nothing of ranks - leave out --ranks, or --json");
   CasePlan const found = plan(arguments.from);
   Problems problems;
-  if (arguments.ranks > 1)
-    for (FormulationInfo const& info : formulations_of(found.spec))
-      if (std::string const refused = refusal_of_ranks(info); !refused.empty()) problems.add({}, refused);
+  if (arguments.ranks > 1) refuse_ranks(found.spec, problems);
   problems.raise_if_any();
   if (arguments.json)
     write_out(plan_json(found));

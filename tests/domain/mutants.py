@@ -7,6 +7,7 @@ About one minute for each mutant. Needs git, CMake, Ninja and MPI, as the preset
 """
 import io
 import os
+import shutil
 import subprocess
 import sys
 import tarfile
@@ -51,10 +52,18 @@ MUTANTS = [
 
 
 def copy_to(folder):
-    """The sources of the last commit, configured once."""
-    if (folder / "CMakeLists.txt").exists():
+    """The sources of the last commit, configured; a copy of another commit is replaced."""
+    head = ["git", "-C", SOURCE, "rev-parse", "HEAD"]
+    commit = subprocess.run(head, check=True, capture_output=True, text=True).stdout
+    mark = folder / "commit-of-mutants"
+    if mark.exists() and mark.read_text() == commit:
         return
+    if mark.exists():
+        shutil.rmtree(folder)
+    elif folder.exists() and any(folder.iterdir()):
+        sys.exit(f"{folder}: holds other things (an empty folder is needed) - give another one")
     folder.mkdir(parents=True, exist_ok=True)
+    mark.write_text(commit)
     archive = subprocess.run(["git", "-C", SOURCE, "archive", "HEAD"], check=True, capture_output=True).stdout
     tarfile.open(fileobj=io.BytesIO(archive)).extractall(folder)
     subprocess.run(["cmake", "--preset", "audit", "-DPIOLA_TOGETHER=ON", "-DPIOLA_INSTRUCTION_SETS=two"], cwd=folder,

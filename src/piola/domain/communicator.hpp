@@ -106,12 +106,6 @@ struct Traffic {
 };
 Traffic traffic();
 
-/// Flags of rank 0 for all ranks, which travel with the next allreduce() of one item and need no message of their own.
-/// send_flags() is called before a step, received_flags() after it; on other ranks `own` has no effect.
-void send_flags(unsigned own);
-/// The flags of rank 0. If no allreduce() has carried them, they travel now.
-unsigned received_flags();
-
 /// Thrown on all ranks when at least one rank has failed. Carries the message and exit code of the lowest failed rank.
 class CollectiveError : public std::runtime_error {
  public:
@@ -121,8 +115,6 @@ class CollectiveError : public std::runtime_error {
  private:
   int code_;
 };
-/// Collective. Returns the error of the lowest rank that reports one (code != 0), on all ranks; code 0 if none does.
-ErrorReport agree(ErrorReport const& own);
 /// Ends all ranks (MPI_Abort). Not collective. Returns only if there is one rank.
 void abort_all(int code);
 

@@ -185,7 +185,8 @@ void allreduce_bytes(void* items, std::size_t count, std::size_t bytes, Combine 
 }
 
 void send_flags(unsigned own) {
-  world.flags = {.value = is_parallel() && world.own != 0 ? 0 : own, .wait = is_parallel()};
+  PIOLA_EXPECTS(is_parallel() && (own == 0 || world.own == 0));
+  world.flags = {.value = own, .wait = true};
 }
 
 unsigned received_flags() {

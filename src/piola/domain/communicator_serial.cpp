@@ -10,11 +10,8 @@ void start() {}
 void finish() {}
 int rank() { return 0; }
 int size() { return 1; }
-namespace {
-unsigned flags = 0;
-}
-void send_flags(unsigned own) { flags = own; }
-unsigned received_flags() { return flags; }
+void send_flags(unsigned) {}
+unsigned received_flags() { return 0; }
 void allreduce_bytes(void*, std::size_t, std::size_t, Combine) {}
 void allreduce_max(double&) {}
 void allreduce_or(std::span<double>) {}

@@ -20,8 +20,16 @@ T of_root(T value) {
   return value;
 }
 
+/// Flags of rank 0 for all ranks, on several ranks; other ranks pass 0. The flags travel with the next allreduce() of
+/// one item and need no message of their own.
+void send_flags(unsigned own);
+/// The flags of rank 0. If no allreduce() has carried them, they travel now.
+unsigned received_flags();
+
 /// Returns whether all ranks pass the same `number`.
 bool all_equal(std::uint64_t number);
+/// Returns the error of the lowest rank that reports one (code != 0), on all ranks; code 0 if none does.
+ErrorReport agree(ErrorReport const& own);
 /// As agree(), with a timeout [s]. Returns nothing if not all ranks have called it by then; the failed rank must then
 /// call abort_all().
 std::optional<ErrorReport> agree_within(double seconds, ErrorReport const& own);

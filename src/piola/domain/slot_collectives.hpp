@@ -5,11 +5,7 @@
 #include "piola/exec/device_loops.hpp"
 #include "piola/exec/field.hpp"
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <span>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 /// Collectives for a body whose slots are numbered alike on all ranks, each of which owns some of them. Halos are in

@@ -87,10 +87,21 @@ std::optional<FormulationInfo> find_formulation(std::string_view name) {
   return std::nullopt;
 }
 
+namespace {
+
+/// Names of the formulations for which is(info) holds.
+template <class F>
+std::vector<std::string_view> names_where(F const& is) {
+  std::vector<std::string_view> names;
+  for (FormulationInfo const& info : infos)
+    if (is(info)) names.push_back(info.name);
+  return names;
+}
+
+}  // namespace
+
 std::string refusal(FormulationInfo const& info, std::string_view what) {
-  std::vector<std::string_view> able;
-  for (FormulationInfo const& other : infos)
-    if (knows(other, what)) able.push_back(other.name);
+  auto const able = names_where([&](FormulationInfo const& other) { return knows(other, what); });
   std::string const text(what), one = text.back() == 's' ? text.substr(0, text.size() - 1) : text;
   return "the formulation " + in_quotes(info.name) + " knows no " + text +
          " (allowed: " + (able.empty() ? "no " + text + " at all" : text + " in " + joined(able)) + ") - remove the " +
@@ -98,10 +109,7 @@ std::string refusal(FormulationInfo const& info, std::string_view what) {
 }
 
 std::string refusal_of_ranks(FormulationInfo const& info) {
-  if (info.ranks) return "";
-  std::vector<std::string_view> able;
-  for (FormulationInfo const& other : infos)
-    if (other.ranks) able.push_back(other.name);
+  auto const able = names_where([](FormulationInfo const& other) { return other.ranks; });
   return "the formulation " + in_quotes(info.name) + " runs on one rank (on several: " + joined(able) +
          ") - start it without mpirun, where run.threads takes all cores, or change body.formulation";
 }

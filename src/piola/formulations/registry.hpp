@@ -62,7 +62,7 @@ std::optional<FormulationInfo> find_formulation(std::string_view name);
 /// Error message for a case that uses an unsupported feature. `what`: "cracks", "mirrors", "parts", "rings", "packed
 /// clouds", "contact", "rigid shapes" or "axisymmetric bodies".
 std::string refusal(FormulationInfo const& info, std::string_view what);
-/// Error message for a run on several ranks; empty if the formulation can be distributed.
+/// Error message for a run on several ranks of a formulation that runs on one.
 std::string refusal_of_ranks(FormulationInfo const& info);
 
 /// Settings of a formulation in a case file: only the given keys, checked against FormulationInfo.

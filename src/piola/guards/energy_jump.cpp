@@ -99,10 +99,8 @@ void EnergyJumpGuard::object(Formulation const& formulation, TimeState const& mo
   bool const number = std::isfinite(energy_without_work(now));
   StopRequest o;
   std::optional<Suspect> fastest;  // on rank 0
-  evaluate_on_root(formulation, particles_, [&](FieldCache& fields) {
-    fastest = most_moved(fields, particles_, {}, moment.time);
-    return true;
-  });
+  evaluate_on_root(formulation, particles_,
+                   [&](FieldCache& fields) { fastest = most_moved(fields, particles_, {}, moment.time); });
   if (fastest) {
     take_particle(o.failure, *fastest, particles_);
     o.failure.what = number ? "is the fastest where the energy jumps without a load"

@@ -21,7 +21,6 @@ std::vector<std::vector<double>> ProbeSet::evaluate(Formulation const& formulati
   if (of_all.empty()) return values;
   evaluate_on_root(formulation, particles_, [&](FieldCache& all) {
     for (std::size_t const k : of_all) values[k] = probes_[k].evaluate(all, time);
-    return true;
   });
   return values;
 }

@@ -43,7 +43,10 @@ CoordinateBounds bounds_of(double const* x, std::ptrdiff_t stride, SlotList cons
     for (Index k = p * part; k < std::min(some.count, (p + 1) * part); ++k)
       for (int c = 0; c < dimension; ++c) {
         double const value = x[some[k] * stride + c];
-        if (std::isfinite(value)) here.add(static_cast<std::size_t>(c), value, value);
+        if (std::isfinite(value))
+          here.add(static_cast<std::size_t>(c), value, value);
+        else
+          here.all_finite = false;
       }
   });
   CoordinateBounds all;

@@ -33,6 +33,7 @@ struct CellListSearch {
 /// Bounds of the finite coordinates of points along each axis; no points: low > high.
 struct CoordinateBounds {
   std::array<double, 3> low, high;
+  bool all_finite = true;  ///< whether no other coordinates were seen
   CoordinateBounds();
   void add(std::size_t axis, double at_least, double at_most) {
     low[axis] = at_least < low[axis] ? at_least : low[axis];
@@ -40,6 +41,7 @@ struct CoordinateBounds {
   }
   void add(CoordinateBounds const& other) {
     for (std::size_t axis = 0; axis < 3; ++axis) add(axis, other.low[axis], other.high[axis]);
+    all_finite = all_finite && other.all_finite;
   }
 };
 

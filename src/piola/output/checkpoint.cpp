@@ -23,7 +23,7 @@ class GroupWriter : public StateWriter {
  public:
   GroupWriter(hdf5::Writer* file, std::string group) : file_(file), group_(std::move(group)) {}
   void put(std::string_view name, std::span<double const> values) override {
-    rows_.on_root([&] {
+    rows_.try_on_root([&] {
       std::string const path = path_of(name);
       file_->dataset<double>(path, values);
       file_->attribute(path, "name", name);
@@ -31,7 +31,7 @@ class GroupWriter : public StateWriter {
   }
   void put_rows(std::string_view name, DistributedRows const& rows, std::span<double const> values) override {
     rows_.put(path_of(name), rows, values, hdf5::Storage::sequence);
-    rows_.on_root([&] { file_->attribute(path_of(name), "name", name); });
+    rows_.try_on_root([&] { file_->attribute(path_of(name), "name", name); });
   }
   void end_rows() override { rows_.end(); }
 
@@ -226,10 +226,6 @@ Checkpoint read_words(hdf5::Reader const& file, std::filesystem::path const& pat
   c.observers = get_state(file, "/observers");
   return c;
 }
-
-}  // namespace
-
-namespace {
 
 void broadcast(std::vector<double>& values) {
   values.resize(comm::of_root(values.size()));

@@ -48,7 +48,7 @@ RedistributionPlan const& CollectiveTableWriter::plan(DistributedRows const& row
 template <class F>
 std::optional<std::vector<std::uint64_t>> CollectiveTableWriter::by_first(std::size_t count, F const& f) {
   std::vector<std::uint64_t> said(count + 1, 0);  // the last one: whether there are any
-  on_root([&] {
+  try_on_root([&] {
     auto const places = f();
     std::copy(places.begin(), places.end(), said.begin());
     said.back() = 1;

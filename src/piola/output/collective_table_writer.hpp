@@ -28,7 +28,7 @@ class CollectiveTableWriter {
            hdf5::Storage storage = hdf5::Storage::contiguous);
   /// Calls f() on rank 0, unless an error has been recorded there. Records an error of f(), too: end() throws it.
   template <class F>
-  void on_root(F const& f) {
+  void try_on_root(F const& f) {
     if (file_ == nullptr || trouble_) return;
     try {
       f();

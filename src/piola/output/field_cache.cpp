@@ -43,19 +43,17 @@ FieldRequest broadcast_request(std::string_view field) {
 }
 
 /// Calls f() on rank 0, then ends the requests also if f() throws.
-bool evaluate_all(Formulation const& formulation, ParticleSet const& particles,
-                  std::function<bool(FieldCache&)> const& f) {
-  bool result = false;
+void evaluate_all(Formulation const& formulation, ParticleSet const& particles,
+                  std::function<void(FieldCache&)> const& f) {
   std::exception_ptr error;
   try {
     FieldCache fields(formulation, particles);
-    result = f(fields);
+    f(fields);
   } catch (...) {
     error = std::current_exception();
   }
   if (comm::is_parallel()) broadcast_request("");
   if (error) std::rethrow_exception(error);
-  return result;
 }
 
 /// Samples what rank 0 requests.
@@ -66,17 +64,15 @@ void sample_requests(Observables const& observables) {
 
 }  // namespace
 
-bool evaluate_on_root(Formulation const& formulation, ParticleSet const& particles,
-                      std::function<bool(FieldCache&)> const& f) {
+void evaluate_on_root(Formulation const& formulation, ParticleSet const& particles,
+                      std::function<void(FieldCache&)> const& f) {
   PIOLA_EXPECTS(f != nullptr);
-  bool result = false;
   comm::agree_after([&] {
     if (comm::rank() == 0)
-      result = evaluate_all(formulation, particles, f);
+      evaluate_all(formulation, particles, f);
     else
       sample_requests(formulation.observables());
   });
-  return comm::of_root(result);
 }
 
 std::vector<double> FieldCache::make(std::string_view field, std::size_t components) {

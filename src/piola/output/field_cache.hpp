@@ -15,10 +15,10 @@ namespace piola {
 class FieldCache;
 
 /// Calls f(fields) on rank 0, where `fields` has the values of all particles. The other ranks send their values of each
-/// field that f() requests. Returns on all ranks what f() returned. Collective. If f() throws, all ranks throw
-/// comm::CollectiveError; on one rank the error itself.
-bool evaluate_on_root(Formulation const& formulation, ParticleSet const& particles,
-                      std::function<bool(FieldCache&)> const& f);
+/// field that f() requests. Collective. If f() throws, all ranks throw comm::CollectiveError; on one rank the error
+/// itself.
+void evaluate_on_root(Formulation const& formulation, ParticleSet const& particles,
+                      std::function<void(FieldCache&)> const& f);
 
 /// Fields at one time, each sampled at most once. Contains the formulation's fields and "Position" (X + Displacement
 /// [m]), "Body" and "Id". Valid until the next step; formulation and particles must outlive it.

@@ -52,12 +52,6 @@ void set_initial_state(BodySpec const& from, Body const& body, Assembly& a) {
   }
 }
 
-void report_ranks(CaseSpec const& spec, Problems& problems) {
-  if (!comm::is_parallel()) return;
-  for (FormulationInfo const& info : formulations_of(spec))
-    if (std::string const refused = refusal_of_ranks(info); !refused.empty()) problems.add({}, refused);
-}
-
 /// The formulation takes deformation gradients either from the displacement or as given, for all bodies.
 void report_mixed_start(CaseSpec const& spec, Problems& problems) {
   auto const given = [](BodySpec const& body) { return body.initial_deformation_gradient.has_value(); };
@@ -271,6 +265,11 @@ std::vector<contact::Surface> surfaces_of(CaseSpec const& spec, Assembly const& 
 
 }  // namespace
 
+void refuse_ranks(CaseSpec const& spec, Problems& problems) {
+  for (FormulationInfo const& info : formulations_of(spec))
+    if (!info.ranks) problems.add({}, refusal_of_ranks(info));
+}
+
 Assembly assemble(CaseSpec const& spec) {
   Problems problems;
   ParticleSet particles = make_particles(spec, problems);
@@ -284,7 +283,7 @@ Assembly assemble(CaseSpec const& spec, ParticleSet particles) {
   PIOLA_EXPECTS(spec.bodies.size() == particles.bodies.size());
   Assembly a;
   Problems problems;
-  report_ranks(spec, problems);
+  if (comm::is_parallel()) refuse_ranks(spec, problems);
   report_mixed_start(spec, problems);
   problems.raise_if_any();
   a.particles = std::move(particles);

@@ -19,6 +19,9 @@ struct Simulation {
   std::vector<std::string> warnings;  ///< unusual settings of the case (guards/warnings.hpp)
 };
 
+/// Reports the formulations of a case that cannot run on several ranks.
+void refuse_ranks(CaseSpec const& spec, Problems& problems);
+
 /// Creates the particles of a case and evaluates the formulas of their initial state. Throws InputError with all errors
 /// in regions and formulas.
 Assembly assemble(CaseSpec const& spec);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/simulation/guard_observer.hpp"
 #include "piola/base/contracts.hpp"
-#include "piola/domain/communicator.hpp"
+#include "piola/domain/error_agreement.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
@@ -25,16 +25,15 @@ GuardObserver::GuardObserver(Results results, double mass, HistoryObserver const
     : results_(std::move(results)),
       history_(history),
       scale_(mass, finest_spacing(results_.particles), roundoff_energy(results_.spec, results_.particles)),
-      jump_(results_.spec, results_.particles, scale_),
-      on_(results_.spec.run.guards.on) {
+      jump_(results_.spec, results_.particles, scale_) {
   PIOLA_EXPECTS(mass >= 0);
-  if (on_ && comm::rank() == 0) guards_ = make_guards(results_.spec, results_.particles);
+  if (is_on() && comm::rank() == 0) guards_ = make_guards(results_.spec, results_.particles);
   told_.assign(guards_.size(), 0);
   kicked_ = starts_under_pressure(results_.spec);
 }
 
 void GuardObserver::observe(Formulation const& formulation, TimeState const& moment) {
-  if (!on_ || (kicked_ && moment.step == 0)) return;
+  if (!is_on() || (kicked_ && moment.step == 0)) return;
   bool const last = moment.time >= results_.spec.run.end || moment.at_rest;
   auto const step = static_cast<double>(moment.step);
   Diagnostics const* row = history_.row_of(moment.step);
@@ -43,22 +42,20 @@ void GuardObserver::observe(Formulation const& formulation, TimeState const& mom
   last_look_ = step;
   Diagnostics const own = row == nullptr ? formulation.diagnose() : *row;
   scale_.observe(own, moment);
-  stops_ = evaluate_on_root(formulation, results_.particles, [&](FieldCache& fields) {
-    return look_of_guards({formulation, moment, own, scale_, fields, last});
+  evaluate_on_root(formulation, results_.particles, [&](FieldCache& fields) {
+    evaluate_guards({formulation, moment, own, scale_, fields, last});
   });
+  stops_ = comm::of_root(stops_);
 }
 
-/// Shows a state to all guards. Whether one of them stops the run.
-bool GuardObserver::look_of_guards(GuardInput const& look) {
-  bool stops = false;
+void GuardObserver::evaluate_guards(GuardInput const& look) {
   for (std::size_t k = 0; k < guards_.size(); ++k) {
     guards_[k]->look(look);
-    stops = stops || guards_[k]->stop_request().has_value();
+    stops_ = stops_ || guards_[k]->stop_request().has_value();
     if (told_[k] != 0 || look.moment.step == 0 || guards_[k]->words().empty()) continue;
     told_[k] = 1;
     results_.journal.report(fmt::format("so far, at t = {:.6g} s: {}", look.moment.time, guards_[k]->words()));
   }
-  return stops;
 }
 
 void GuardObserver::finish(Formulation const&, TimeState const&, RunStatus) {
@@ -68,7 +65,7 @@ void GuardObserver::finish(Formulation const&, TimeState const&, RunStatus) {
 }
 
 void GuardObserver::save(StateWriter& writer) const {
-  if (!on_) return;
+  if (!is_on()) return;
   std::vector<double> state{last_look_};
   state.insert(state.end(), told_.begin(), told_.end());
   writer.put("guards", state);
@@ -78,7 +75,7 @@ void GuardObserver::save(StateWriter& writer) const {
 }
 
 void GuardObserver::load(NamedState& reader, TimeState const& moment) {
-  if (!on_ || !reader.has("guards")) return;  // checkpoints of older versions have none
+  if (!is_on() || !reader.has("guards")) return;  // checkpoints of older versions have none
   auto const state = reader.all("guards");
   last_look_ = state[0];
   told_.assign(state.begin() + 1, state.end());
@@ -98,7 +95,7 @@ std::optional<StopRequest> GuardObserver::stop_request() const {
 }
 
 std::optional<std::vector<GuardNumbers>> GuardObserver::report() const {
-  if (!on_) return std::nullopt;
+  if (!is_on()) return std::nullopt;
   std::vector<GuardNumbers> all;
   for (auto const& guard : guards_) {
     if (auto numbers = guard->numbers()) all.push_back(std::move(*numbers));

@@ -20,13 +20,13 @@ class GuardObserver : public Observer {
   std::optional<std::vector<GuardNumbers>> report() const;
 
  private:
-  bool look_of_guards(GuardInput const& look);
+  bool is_on() const { return results_.spec.run.guards.on; }
+  void evaluate_guards(GuardInput const& look);
 
   Results results_;
   HistoryObserver const& history_;
   EnergyScale scale_;
   EnergyJumpGuard jump_;
-  bool on_;
   Guards guards_;        ///< on rank 0; none if they are off
   bool stops_ = false;   ///< whether a guard stops the run; equal on all ranks
   bool kicked_ = false;  ///< the case has a one-step initial pressure, whose energy no column contains

@@ -77,13 +77,12 @@ void HistoryObserver::open(Formulation const& formulation, std::optional<double>
   });
   if (!file_->repair_note().empty()) results_.journal.warn(file_->repair_note());
   auto const& rows = table().rows;
-  last_row_step_ = comm::of_root(rows.empty() ? -1.0 : rows.back()[1]);
+  last_step_ = comm::of_root(rows.empty() ? std::int64_t{-1} : std::lround(rows.back()[1]));
 }
 
 void HistoryObserver::write_row(Formulation const& formulation, TimeState const& moment) {
   if (!seen_at_start_ || moment.step > 0) last_ = formulation.diagnose();
   last_step_ = moment.step;
-  last_row_step_ = static_cast<double>(moment.step);
   auto row = diagnostic_values(moment.time, moment.step, moment.dt, *last_);
   for (auto const& more : probes_.evaluate(formulation, moment.time)) row.insert(row.end(), more.begin(), more.end());
   std::size_t const rows_before = empty_cells_.rows();
@@ -98,7 +97,7 @@ void HistoryObserver::observe(Formulation const& formulation, TimeState const& m
 
 void HistoryObserver::finish(Formulation const& formulation, TimeState const& moment, RunStatus ending) {
   PIOLA_EXPECTS(file_.has_value());
-  bool const written = last_row_step_ == static_cast<double>(moment.step);
+  bool const written = last_step_ == moment.step;
   // A stopped run gets no extra row, so that the history of a resumed run equals that of an uninterrupted one.
   if (!written && ending != RunStatus::stopped) write_row(formulation, moment);
   if (empty_cells_.rows() > 1) results_.journal.warn(empty_cells_.text(1));

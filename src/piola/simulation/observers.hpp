@@ -62,9 +62,8 @@ class HistoryObserver : public Observer {
   HistoryMark mark_;  ///< of the checkpoint from which the run was resumed
   EmptyCells empty_cells_;
   std::optional<Diagnostics> last_;
-  bool seen_at_start_ = false;  ///< last_ is the state before the first step
-  std::int64_t last_step_ = -1;
-  double last_row_step_ = -1;  ///< step of the last row; a resumed run has rows from before
+  bool seen_at_start_ = false;   ///< last_ is the state before the first step
+  std::int64_t last_step_ = -1;  ///< of the last row, which may be from before a run was resumed; -1: no row
 };
 
 /// frames/*.hdf at each due time and at the end; the last state of a failed run always. Those of pictures are written

@@ -20,7 +20,6 @@ void StepObserver::observe(Formulation const& formulation, TimeState const& mome
   if (bound.particle >= 0)
     evaluate_on_root(formulation, results_.particles, [&](FieldCache& fields) {
       where = ", at " + suspect(fields, static_cast<std::size_t>(bound.particle), moment.time).text(results_.particles);
-      return true;
     });
   results_.journal.note(
       fmt::format("t = {:.6g} s: the step falls to {:.3g} s (the longest was {:.3g} s), limited by {}{}", moment.time,

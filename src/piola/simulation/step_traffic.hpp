@@ -12,7 +12,7 @@ class StepTraffic {
  public:
   void begin_step();
   void end_step();
-  /// Means per step of each rank, on rank 0; empty elsewhere and on one rank. Collective.
+  /// Means per step of each rank; empty on one rank. Collective.
   std::vector<RankTraffic> of_ranks() const;
 
  private:

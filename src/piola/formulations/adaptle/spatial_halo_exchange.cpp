@@ -5,7 +5,6 @@
 #include "piola/formulations/adaptle/spatial_lists.hpp"
 #include "piola/formulations/adaptle/subscript.hpp"
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <iterator>
 
@@ -15,15 +14,10 @@ namespace {
 /// A particle in a message: its slot, then its position.
 constexpr std::size_t of_position = 4;
 
-/// Number of values per rank, as start offsets for complete().
+/// Start of the values of each rank among those of all, and their number last. own: number of this rank.
 std::vector<std::size_t> starts_of(std::size_t own) {
-  auto const ranks = at(comm::size());
-  std::vector<double> counts(ranks, 0);
-  std::vector<std::size_t> one_each(ranks + 1), starts{0};
-  for (std::size_t r = 0; r <= ranks; ++r) one_each[r] = r;
-  counts[at(comm::rank())] = static_cast<double>(own);
-  comm::allgather(counts, one_each);
-  for (double const count : counts) starts.push_back(starts.back() + static_cast<std::size_t>(count));
+  std::vector<std::size_t> starts{0};
+  for (std::size_t const count : comm::allgather_item(own)) starts.push_back(starts.back() + count);
   return starts;
 }
 
@@ -42,14 +36,6 @@ std::vector<double> SpatialHaloExchange::coordinates(System const& s, std::size_
   for (Index const slot : own_) *to++ = s.position[3 * at(slot) + axis];
   comm::allgather(all, starts);
   return all;
-}
-
-SpatialHaloExchange::Extent SpatialHaloExchange::own_extent(System const& s) const {
-  Extent extent{bounds_of(s.position, 3, own(), s.dimension)};
-  for (Index const slot : own_)
-    for (int c = 0; c < s.dimension; ++c)
-      if (!std::isfinite(s.position[std::ptrdiff_t{3} * slot + c])) extent.has_not_a_number = 1;
-  return extent;
 }
 
 void SpatialHaloExchange::forget() {
@@ -82,19 +68,19 @@ void SpatialHaloExchange::find_own_cells(System const& s, CellList const& grid) 
 
 /// Finds the remote ranks that are near, and the local cells near each of them: those from which that rank derives what
 /// its cells and the adjacent ones read and export.
-void SpatialHaloExchange::select_cells(CellList const& grid, std::span<Extent const> extents) {
+void SpatialHaloExchange::select_cells(CellList const& grid, std::span<CoordinateBounds const> bounds) {
   constexpr Index layers = 3;  // adjacent cells, those that these read, and those around them
-  auto const box_of = [&](Extent const& extent) {
-    if (extent.has_not_a_number > 0) return CellBox{{0, 0, 0}, grid.shape()};
-    return CellBox{grid.steps_to(extent.bounds.low), grid.steps_to(extent.bounds.high)};
+  auto const box_of = [&](CoordinateBounds const& of_rank) {
+    if (!of_rank.all_finite) return CellBox{{0, 0, 0}, grid.shape()};
+    return CellBox{grid.steps_to(of_rank.low), grid.steps_to(of_rank.high)};
   };
-  auto const is_empty = [](Extent const& e) { return e.has_not_a_number == 0 && e.bounds.low[0] > e.bounds.high[0]; };
-  auto const own = at(comm::rank());
-  for (std::size_t rank = 0; rank < extents.size(); ++rank) {
-    CellBox const box = box_of(extents[rank]);
+  auto const is_empty = [](CoordinateBounds const& b) { return b.all_finite && b.low[0] > b.high[0]; };
+  CoordinateBounds const& own = bounds[at(comm::rank())];
+  for (std::size_t rank = 0; rank < bounds.size(); ++rank) {
+    CellBox const box = box_of(bounds[rank]);
     others_[rank].clear();
-    is_near_[rank] = rank != own && !is_empty(extents[own]) && !is_empty(extents[rank]) &&
-                     box.is_within(box_of(extents[own]), layers);
+    is_near_[rank] =
+        rank != at(comm::rank()) && !is_empty(own) && !is_empty(bounds[rank]) && box.is_within(box_of(own), layers);
     for (std::size_t k = 0; k < mine_.size() && is_near_[rank]; ++k) {
       std::array<Index, 3> const place = grid.steps_to(mine_[k].cell);
       if (CellBox{place, place}.is_within(box, layers)) others_[rank].push_back(mine_[k]);
@@ -194,11 +180,11 @@ void SpatialHaloExchange::send_positions(System const& s) {
     }
 }
 
-void SpatialHaloExchange::meet(System const& s, CellList const& grid, std::span<Extent const> extents,
+void SpatialHaloExchange::meet(System const& s, CellList const& grid, std::span<CoordinateBounds const> bounds,
                                HaloCells& marks) {
   forget();
   find_own_cells(s, grid);
-  select_cells(grid, extents);
+  select_cells(grid, bounds);
   exchange_cells();
   marks.start(grid.shape(), s.dimension);
   for (std::size_t rank = 0; rank < sends_.size(); ++rank)

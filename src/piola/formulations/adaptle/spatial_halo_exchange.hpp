@@ -23,16 +23,10 @@ class SpatialHaloExchange {
   /// Coordinates of all particles of a run along an axis, unordered.
   std::vector<double> coordinates(System const& system, std::size_t axis) const;
 
-  /// Where the particles of a rank are.
-  struct Extent {
-    CoordinateBounds bounds{};    ///< of finite coordinates
-    double has_not_a_number = 0;  ///< 1 if a coordinate is not finite
-  };
-  Extent own_extent(System const& system) const;
-  /// Exchanges cells and positions. extents: of all ranks. Precondition: positions and cells of local particles are
-  /// set. Afterwards `marks` is complete for local cells and those adjacent, the positions of spatial ghosts are set,
-  /// and received() lists these.
-  void meet(System const& system, CellList const& grid, std::span<Extent const> extents, HaloCells& marks);
+  /// Exchanges cells and positions. bounds: of the particles of each rank. Precondition: positions and cells of local
+  /// particles are set. Afterwards `marks` is complete for local cells and those adjacent, the positions of spatial
+  /// ghosts are set, and received() lists these.
+  void meet(System const& system, CellList const& grid, std::span<CoordinateBounds const> bounds, HaloCells& marks);
   SlotList received() const { return of(received_); }
   /// Local particles and spatial ghosts, in the order of ids.
   SlotList present() const { return of(present_); }
@@ -87,7 +81,7 @@ class SpatialHaloExchange {
     }
   };
   void find_own_cells(System const& system, CellList const& grid);
-  void select_cells(CellList const& grid, std::span<Extent const> extents);
+  void select_cells(CellList const& grid, std::span<CoordinateBounds const> bounds);
   void exchange_cells();
   void select_sends(CellList const& grid, HaloCells const& marks);
   void send_counts();

@@ -55,10 +55,10 @@ void SpatialLists::sort_with_images(System const& s) {
 /// Sorts local particles and spatial ghosts into cells.
 void SpatialLists::sort_with_ghosts(System const& s, RemoteParticles const& others) {
   SpatialHaloExchange& near = *others.near;
-  grid_.lay(others.bounds, s.particles, s.dimension, widest_, origin_of_cells(s),
+  grid_.lay(others.all, s.particles, s.dimension, widest_, origin_of_cells(s),
             [&](std::size_t axis) { return near.coordinates(s, axis); });
   grid_.find_cells(s.position, 3, near.own());
-  near.meet(s, grid_, others.extents, marks_);
+  near.meet(s, grid_, others.of_ranks, marks_);
   grid_.find_cells(s.position, 3, near.received());
   grid_.sort(near.present());
   near.choose(grid_, marks_);

@@ -14,11 +14,12 @@ namespace piola::adaptle {
 /// spatial ghosts.
 class SpatialLists {
  public:
-  /// Input from other ranks: the spatial halo exchange (null on one rank), and where all particles are.
+  /// Input from other ranks: the spatial halo exchange (null on one rank), and bounds of all particles and of those of
+  /// each rank.
   struct RemoteParticles {
     SpatialHaloExchange* near = nullptr;
-    CoordinateBounds bounds{};                              ///< of all particles
-    std::vector<SpatialHaloExchange::Extent> extents = {};  ///< of each rank
+    CoordinateBounds all{};
+    std::vector<CoordinateBounds> of_ranks{};
   };
   /// busy: increased by the time of the work on local particles [s].
   void build(System const& system, RemoteParticles const& others, Backend const& backend, double& busy);

@@ -83,18 +83,18 @@ StepHaloExchanges::ReferenceHalo StepHaloExchanges::reference_halo(System const&
   return halo;
 }
 
-/// Failures travel with the extents of the ranks.
+/// Failures travel with the bounds.
 SpatialLists::RemoteParticles StepHaloExchanges::before_lists(System const& s) {
   struct RankState {
     FirstFailure first;
-    SpatialHaloExchange::Extent extent;
+    CoordinateBounds bounds;
   } own{FirstFailure(*s.failure), {}};
-  if (SpatialLists::needed(s)) own.extent = near_.own_extent(s);
+  if (SpatialLists::needed(s)) own.bounds = bounds_of(s.position, 3, near_.own(), s.dimension);
   SpatialLists::RemoteParticles others{&near_, {}, {}};
   for (RankState const& rank : comm::allgather_item(own)) {
     own.first.add(rank.first);
-    others.bounds.add(rank.extent.bounds);
-    others.extents.push_back(rank.extent);
+    others.all.add(rank.bounds);
+    others.of_ranks.push_back(rank.bounds);
   }
   own.first.put(*s.failure);
   return others;

@@ -63,6 +63,7 @@ class Step {
     square -= advance_stresses(b_.boundary, b_.boundary_count, dt);
     b_.exchange_loss += 0.5 * (1 - b_.k.stress_retention) * dt * dt * square;
   }
+  /// Energies of the cells.
   CellEnergy cell_energy() {
     using Pass = CellEnergies<D, Law>;
     exec::for_each_block(b_.virtuals,
