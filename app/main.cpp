@@ -20,8 +20,8 @@ namespace {
 using namespace piola;
 using app::print_message;
 
-/// Reports an error of this rank and returns the exit code. On several ranks one speaks for all: the lowest one with an
-/// error where all ranks end in time; otherwise they wait for this one, which then ends them.
+/// Prints an error of this rank and returns the exit code. On several ranks only one prints: if all ranks have an error
+/// within the timeout, the lowest one; otherwise this rank, which then aborts the others, as they may wait for it.
 int report(ErrorReport const& error) {
   constexpr double timeout = 5;  // s
   if (auto const first = comm::agree_within(timeout, error)) {

@@ -20,8 +20,8 @@ T of_root(T value) {
   return value;
 }
 
-/// Flags of rank 0 for all ranks, on several ranks; other ranks pass 0. The flags travel with the next allreduce() of
-/// one item and need no message of their own.
+/// Sends flags of rank 0 to all ranks with the next allreduce() of one item, without a message of their own. Other
+/// ranks pass 0. Precondition: there are several ranks.
 void send_flags(unsigned own);
 /// The flags of rank 0. If no allreduce() has carried them, they travel now.
 unsigned received_flags();

@@ -110,19 +110,19 @@ void CellList::lay(CoordinateBounds const& all, Index particles, int dimension, 
   sorted_ = LazyZeroArray<Index>(static_cast<std::size_t>(particles));
 }
 
-Index CellList::step_along(double x, std::size_t axis) const {
+Index CellList::index_along(double x, std::size_t axis) const {
   double const inner = std::floor(in_cells(x, axis)) - span_[axis].low;
   // Written so that what is not a number falls into the first cell.
   return 1 + (inner > 0 ? static_cast<Index>(std::min(inner, span_[axis].count - 1)) : 0);
 }
 
-std::array<Index, 3> CellList::steps_to(std::array<double, 3> const& x) const {
+std::array<Index, 3> CellList::indices_of(std::array<double, 3> const& x) const {
   std::array<Index, 3> at{};
-  for (std::size_t c = 0; c < dimension_; ++c) at[c] = step_along(x[c], c);
+  for (std::size_t c = 0; c < dimension_; ++c) at[c] = index_along(x[c], c);
   return at;
 }
 
-std::array<Index, 3> CellList::steps_to(Index cell) const {
+std::array<Index, 3> CellList::indices_of(Index cell) const {
   return {cell % count_[0], cell / count_[0] % count_[1], cell / count_[0] / count_[1]};
 }
 
@@ -136,7 +136,7 @@ void CellList::find_cells(double const* x, std::ptrdiff_t stride, SlotList const
     Index const i = some[k];
     std::array<Index, 3> at{};
     for (std::size_t c = 0; c < dimension_; ++c)
-      at[c] = step_along(x_[i * stride_ + static_cast<std::ptrdiff_t>(c)], c);
+      at[c] = index_along(x_[i * stride_ + static_cast<std::ptrdiff_t>(c)], c);
     key_[static_cast<std::size_t>(i)] = (at[2] * count_[1] + at[1]) * count_[0] + at[0];
   });
 }
@@ -186,7 +186,7 @@ std::array<double, 3> CellList::where(Index slot) const {
 }
 
 std::array<double, 3> CellList::corner(Index cell) const {
-  std::array<Index, 3> const at = steps_to(cell);
+  std::array<Index, 3> const at = indices_of(cell);
   std::array<double, 3> corner{};
   for (std::size_t c = 0; c < dimension_; ++c) corner[c] = span_[c].low + at[c] - 1;
   return corner;

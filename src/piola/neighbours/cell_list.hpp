@@ -84,10 +84,10 @@ class CellList {
   /// Position of a particle, and corner of a cell, relative to the origin [edges].
   std::array<double, 3> where(Index slot) const;
   std::array<double, 3> corner(Index cell) const;
-  /// Cells along each axis up to a cell, and to that of a position [m]; from 1 on in the axes of the run. What is not a
-  /// number is in the first cell.
-  std::array<Index, 3> steps_to(Index cell) const;
-  std::array<Index, 3> steps_to(std::array<double, 3> const& x) const;
+  /// Indices along each axis of a cell, and of the cell that holds a position [m]. They start at 1, those of unused
+  /// axes are 0. A position that is not a number is in the first cell.
+  std::array<Index, 3> indices_of(Index cell) const;
+  std::array<Index, 3> indices_of(std::array<double, 3> const& x) const;
   Index cell_count() const { return count_[0] * count_[1] * count_[2]; }
   std::array<Index, 3> shape() const { return count_; }
   float const* place(int axis) const { return place_[static_cast<std::size_t>(axis)].data(); }
@@ -106,7 +106,7 @@ class CellList {
   void fit(CoordinateBounds const& bounds, Coordinates const& coordinates);
   double in_cells(double x, std::size_t axis) const { return (x - origin_[axis]) / cell_edge_; }
   double kept(double x, std::size_t axis) const;
-  Index step_along(double x, std::size_t axis) const;
+  Index index_along(double x, std::size_t axis) const;
 
   double const* x_ = nullptr;
   std::ptrdiff_t stride_ = 3;

@@ -72,7 +72,7 @@ void SpatialHaloExchange::select_cells(CellList const& grid, std::span<Coordinat
   constexpr Index layers = 3;  // adjacent cells, those that these read, and those around them
   auto const box_of = [&](CoordinateBounds const& of_rank) {
     if (!of_rank.all_finite) return CellBox{{0, 0, 0}, grid.shape()};
-    return CellBox{grid.steps_to(of_rank.low), grid.steps_to(of_rank.high)};
+    return CellBox{grid.indices_of(of_rank.low), grid.indices_of(of_rank.high)};
   };
   auto const is_empty = [](CoordinateBounds const& b) { return b.all_finite && b.low[0] > b.high[0]; };
   CoordinateBounds const& own = bounds[at(comm::rank())];
@@ -82,7 +82,7 @@ void SpatialHaloExchange::select_cells(CellList const& grid, std::span<Coordinat
     is_near_[rank] =
         rank != at(comm::rank()) && !is_empty(own) && !is_empty(bounds[rank]) && box.is_within(box_of(own), layers);
     for (std::size_t k = 0; k < mine_.size() && is_near_[rank]; ++k) {
-      std::array<Index, 3> const place = grid.steps_to(mine_[k].cell);
+      std::array<Index, 3> const place = grid.indices_of(mine_[k].cell);
       if (CellBox{place, place}.is_within(box, layers)) others_[rank].push_back(mine_[k]);
     }
   }

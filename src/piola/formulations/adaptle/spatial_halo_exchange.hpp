@@ -71,7 +71,7 @@ class SpatialHaloExchange {
   };
   static SlotList of(std::vector<Index> const& slots) { return {static_cast<Index>(slots.size()), slots.data()}; }
   static std::size_t width_of(std::vector<FieldPart> const& parts);
-  /// Cells of a rank along each axis: a box of cells that holds them.
+  /// The smallest box of cells that holds the cells of a rank, by their indices along each axis.
   struct CellBox {
     std::array<Index, 3> low, high;
     bool is_within(CellBox const& other, Index layers) const {
