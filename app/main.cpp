@@ -90,6 +90,7 @@ int run_command(int argc, char** argv) {
   app::add_verify(program, action);
   app::add_describe(program, action);
   app::add_bench(program, action);
+  app::add_import(program, action);
   try {
     program.parse(argc, argv);
   } catch (CLI::ParseError const& error) {

@@ -32,4 +32,5 @@ set(PIOLA_PYTHON_INSTALL "lib/python3/dist-packages" CACHE STRING "Where the mod
 if(PROJECT_IS_TOP_LEVEL)
   install(TARGETS piola_python LIBRARY DESTINATION "${PIOLA_PYTHON_INSTALL}/piola" COMPONENT python)
   install(FILES ${_python_files} DESTINATION "${PIOLA_PYTHON_INSTALL}/piola" COMPONENT python)
+  install(FILES ${PIOLA_IMPORT_FILES} DESTINATION "${PIOLA_PYTHON_INSTALL}/piola_import" COMPONENT python)
 endif()
