@@ -7,7 +7,7 @@ from .abaqus_lines import read_keywords
 from .abaqus_materials import OPTIONS, READ, material_of
 from .abaqus_parts import ASSUMPTIONS, ELEMENTS, FACES, Container, Instance, place_of_instance, plain_type, shape_of
 from .materials import problems_of
-from .model import Model, name_of, rows_of, sorted_nodes
+from .model import Model, name_of, rows_of, sorted_nodes, whole
 from .solids import TETRAHEDRON_EDGES
 
 SILENT = {"HEADING", "PREPRINT", "PART", "END PART", "ASSEMBLY", "END ASSEMBLY", "INSTANCE", "END INSTANCE", "STEP",
@@ -88,7 +88,8 @@ class _Reader:
         if name == "NODE":
             here.nodes.append(keyword.table(4, problems))
             if keyword.get("NSET"):
-                here.node_sets.setdefault(keyword.get("NSET"), []).append(("", [here.nodes[-1][:, 0].astype(np.int64)]))
+                here.node_sets.setdefault(keyword.get("NSET"), []).append(
+                    ("", [whole(here.nodes[-1][:, 0], keyword.place, problems)]))
         elif name == "ELEMENT":
             self._take_elements(keyword, here)
         elif name in ("NSET", "ELSET"):
@@ -172,7 +173,8 @@ class _Placed:
         self.instances = {instance.name: instance for instance in self.reader.instances}
         for name, instance in self.instances.items():
             rows = np.vstack([np.zeros((0, 4)), *instance.part.nodes])
-            ids, X = sorted_nodes(rows[:, 0].astype(np.int64), rows[:, 1:], self.reader.path, self.problems)
+            ids = whole(rows[:, 0], self.reader.path, self.problems)
+            ids, X = sorted_nodes(ids, rows[:, 1:], self.reader.path, self.problems)
             self.ids[name], self.first_node[name], self.first_element[name] = ids, at, count
             nodes.append(instance.moved(X) * self.reader.units.length)
             own = [np.zeros(0, dtype=np.int64)]

@@ -8,6 +8,7 @@ from .model import name_of
 from .solids import curved_tetrahedra, edges_of, faces_of, hull, keys_of, volumes_and_centroids
 
 TETRAHEDRA_PER_PARTICLE = 5  # a mesh has five to six tetrahedra per node
+LEAST_ACROSS = 3             # particles that nodal needs across a body
 
 
 @dataclass
@@ -53,11 +54,12 @@ def bodies_of(model, volume, wanted_spacing, mixed):
         rows = np.flatnonzero(np.isin(model.part, parts))
         if len(rows) == 0:
             continue
-        parts = sorted(parts, key=lambda part: -volume[model.part == part].sum())
+        parts = sorted(parts, key=lambda part: -float(f"{volume[model.part == part].sum():.6e}"))
         elements = model.elements[rows]
         surface = hull(faces_of(elements) if model.dimension == 3 else edges_of(elements))
         total = float(volume[rows].sum())
-        spacing = wanted_spacing or (total / _particles(model, rows))**(1 / model.dimension)
+        narrowest = np.ptp(model.X[elements.ravel(), :model.dimension], axis=0).min()
+        spacing = wanted_spacing or min((total / _particles(model, rows))**(1 / model.dimension), narrowest / LEAST_ACROSS)
         bodies.append(Body(model.parts[parts[0]], parts, rows, surface, spacing, total))
     at = {part: k for k, body in enumerate(bodies) for part in body.parts}
     return bodies, sorted({(at[a], at[b]) for a, b in sharing if at[a] != at[b]})

@@ -5,7 +5,7 @@ import numpy as np
 from .lsdyna_cards import Blocks, table
 from .lsdyna_materials import Card, grueneisen, kind_of, linear_polynomial
 from .materials import problems_of
-from .model import Model, Support, Velocity, Wall, name_of, rows_of, sorted_nodes
+from .model import Model, Support, Velocity, Wall, name_of, rows_of, sorted_nodes, whole
 from .solids import TETRAHEDRON, TETRAHEDRON_EDGES
 
 # Keywords whose work Piola does by itself or without settings.
@@ -53,12 +53,12 @@ class _Reader:
     def _nodes(self):
         found = [table(block, None, (8, 16, 16, 16, 8, 8), 5, self.problems) for block in self._of("NODE")]
         rows = np.vstack([np.zeros((0, 5)), *found])
-        self.ids, self.model.X = sorted_nodes(rows[:, 0].astype(np.int64), rows[:, 1:4] * self.units.length, self.path,
-                                              self.problems)
+        self.ids, self.model.X = sorted_nodes(whole(rows[:, 0], self.path, self.problems),
+                                              rows[:, 1:4] * self.units.length, self.path, self.problems)
         for code in np.unique(rows[:, 4]):
             if 0 < code < 8:
                 fix = ("x", "y", "z", "xy", "yz", "xz", "xyz")[int(code) - 1]
-                self.held.setdefault(fix, []).extend(rows[rows[:, 4] == code, 0].astype(np.int64))
+                self.held.setdefault(fix, []).extend(whole(rows[rows[:, 4] == code, 0], self.path, self.problems))
 
     def _elements(self):
         found = [_solids_of(block, self.problems) for block in self._of("ELEMENT_SOLID")]
@@ -149,13 +149,16 @@ class _Reader:
         title = block.lines[0].strip() if first and block.lines else f"{words[1].lower()}s_{number}"
         rows = list(range(first + 1, len(block.lines)))
         if words[1] == "SEGMENT":
-            self._segments(title, table(block, rows, (10,) * 4, 4, self.problems).astype(np.int64), block)
+            self._segments(title, self._ids(block, rows, 4), block)
             return
-        ids = table(block, rows, (10,) * 8, 8, self.problems).astype(np.int64).ravel()
+        ids = self._ids(block, rows, 8).ravel()
         ids = ids[ids > 0]
         if "GENERATE" in words:
             ids = np.concatenate([np.arange(a, b + 1) for a, b in zip(ids[::2], ids[1::2]) if b - a < 10**8] or [ids])
         self.sets[words[1]][number] = (title, ids)
+
+    def _ids(self, block, rows, count):
+        return whole(table(block, rows, (10,) * count, count, self.problems), block.place, self.problems)
 
     def _segments(self, title, corners, block):
         rows = rows_of(self.ids, corners)
@@ -249,7 +252,8 @@ class _Reader:
         elif keyword == "INITIAL_VELOCITY_NODE":
             rows = table(block, None, (10,) * 4, 4, self.problems)
             for value in np.unique(rows[:, 1:], axis=0):
-                self._start(self._rows(rows[(rows[:, 1:] == value).all(axis=1), 0]), value, block, [])
+                nodes = whole(rows[(rows[:, 1:] == value).all(axis=1), 0], block.place, self.problems)
+                self._start(self._rows(nodes), value, block, [])
         else:
             for row in range(0, len(block.lines), 2):
                 number, kind, spin, *value = block.card(row, self.problems)[:6]
@@ -289,13 +293,13 @@ def _solids_of(block, problems):
     count = len(block.lines)
     if not short:
         rows = table(block, None, (8,) * 10, 10, problems)
-        return np.hstack([rows, np.zeros((count, 2))]).astype(np.int64)
+        return whole(np.hstack([rows, np.zeros((count, 2))]), block.place, problems)
     if count % 2:
         problems.add(block.at(count - 1), "the element has no line of nodes: the file is cut off - export it again")
         count -= 1
     heads = table(block, list(range(0, count, 2)), (8, 8), 2, problems)
     nodes = table(block, list(range(1, count, 2)), (8,) * 10, 10, problems)
-    return np.hstack([heads, nodes]).astype(np.int64)
+    return whole(np.hstack([heads, nodes]), block.place, problems)
 
 
 def _straighten(model, nodes, given):

@@ -32,18 +32,17 @@ class Problems:
 
 
 class Left:
-    """Keywords that were not understood, or not in full: first place, number, and what that means."""
+    """Keywords that were not understood, or not in full: first place, number of places, and what that means."""
 
     def __init__(self):
         self.entries = {}
 
     def add(self, keyword, place, reason="no counterpart"):
-        entry = self.entries.setdefault((keyword, reason), [place, 0])
-        entry[1] += 1
+        self.entries.setdefault((keyword, reason), {})[str(place)] = True
 
     def lines(self):
-        return [f"  {keyword}  {place}{f', {count:,} times' if count > 1 else ''}: {reason}"
-                for (keyword, reason), (place, count) in self.entries.items()]
+        return [f"  {keyword}  {next(iter(places))}{f', {len(places):,} times' if len(places) > 1 else ''}: {reason}"
+                for (keyword, reason), places in self.entries.items()]
 
 
 @dataclass
@@ -135,6 +134,15 @@ def rows_of(ids, wanted):
         return np.full(wanted.shape, -1, dtype=np.int64)
     at = np.clip(np.searchsorted(ids, wanted), 0, len(ids) - 1)
     return np.where(ids[at] == wanted, at, -1)
+
+
+def whole(values, place, problems):
+    """Numbers as int64; those that are no whole numbers up to 1e15 are problems."""
+    odd = ~((np.abs(values) < 1e15) & (values == np.floor(values)))
+    if odd.any():
+        problems.add(place, f"{values[odd].ravel()[0]:g} stands where a number of a node, element or set should be - correct "
+                     "it")
+    return np.where(odd, 0, values).astype(np.int64)
 
 
 def sorted_nodes(ids, X, place, problems):

@@ -11,7 +11,7 @@ from .solids import edges_of, faces_of, hull
 
 MOST_NODES = 200          # of a set without faces, each of which becomes a ball
 NEAR = 0.75               # spacings around faces, within which the first layer of particles lies
-HYPERELASTIC = {"neo_hookean", "mooney_rivlin"}
+HYPERELASTIC = {"neo_hookean", "mooney_rivlin", "saint_venant_kirchhoff"}
 PLACEHOLDER = "steel_4340"
 
 
@@ -49,11 +49,24 @@ class CaseWriter:
         self.regions = {}
         self.taken = {*model.parts, *model.node_sets, *model.element_sets, *model.surfaces}
         self.notes = []
+        if (model.assumption == "plane_stress" and mixed) or self._prefers_jst_sph():
+            self._take_elastic_law()
         for a, b in self.sharing if options.particles else []:
             problems.add(options.source, f"the parts {self.bodies[a].name} and {self.bodies[b].name} share nodes and have "
                          "different materials, but particles of elements cannot be joined or tied - leave out "
                          "--particles elements")
         problems.stop_if_any()
+
+    def _prefers_jst_sph(self):
+        """Particles from files that stay elastic are calmer under jst_sph than under adaptle; it refuses rigid shapes."""
+        return self.options.particles and self.options.formulation != "adaptle" and not self.model.walls
+
+    def _take_elastic_law(self):
+        """Plane stress of nodal, and jst_sph, are for hyperelastic laws: elastic materials get one."""
+        for material in filter(None, self.model.materials):
+            if material.keys == material.keys | {"law": "elastic"} and "eos" not in material.keys:
+                material.keys["law"] = "saint_venant_kirchhoff"
+                material.notes.append("saint_venant_kirchhoff takes the place of elastic here: the same at small strain")
 
     def write(self):
         """Writes all files; returns lines that say what the bodies are."""
@@ -150,16 +163,21 @@ class CaseWriter:
             return material.keys, [f"{owner}: {material.name}; SI units."] + [f"{n[0].upper()}{n[1:]}."
                                                                              for n in material.notes]
         name = self.options.material or PLACEHOLDER
+        if not self.options.material:
+            self.notes.append(f"{owner} has no material that Piola has: {name} is a placeholder")
         comment = [] if self.options.material else [f"{owner}: placeholder, the file gives no material that Piola has."]
         return {"name": name}, comment
 
     def _formulation(self, material):
         """The one that was chosen; else nodal for surfaces, and for particles one that takes them with the law."""
-        law = material.keys["law"] if material else "johnson_cook"
-        name = self.options.formulation or ("nodal" if not self.options.particles else
-                                            "jst_sph" if law in HYPERELASTIC else "adaptle")
-        plane = self.model.assumption == "plane_stress" and name != "jst_sph"
-        return {"name": name} | ({"assumption": "plane_stress"} if plane else {})
+        yields = material is None or material.keys["law"] not in HYPERELASTIC | {"elastic"}
+        plane_stress = self.model.assumption == "plane_stress"
+        if self.options.particles:
+            name = "jst_sph" if material and material.keys["law"] in HYPERELASTIC else "adaptle"
+        else:
+            name = "adaptle" if plane_stress and yields else "nodal"
+        name = self.options.formulation or name
+        return {"name": name} | ({"assumption": "plane_stress"} if plane_stress and name != "jst_sph" else {})
 
     def _part_region(self, part):
         """The region of a part, made when it is asked for."""
