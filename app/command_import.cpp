@@ -23,8 +23,7 @@ struct ImportArguments {
 std::filesystem::path converter() {
   std::array<char, PATH_MAX> program{};
   ::ssize_t const length = ::readlink("/proc/self/exe", program.data(), program.size() - 1);
-  std::filesystem::path const folder =
-      std::filesystem::path(length > 0 ? program.data() : "").parent_path();
+  std::filesystem::path const folder = std::filesystem::path(length > 0 ? program.data() : "").parent_path();
   std::error_code ignored;
   for (char const* const place : {"python", "../share/piola/python"}) {
     auto found = folder / place / "piola_import" / "__main__.py";
@@ -71,8 +70,9 @@ void add_import(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand(
       "import", "Turn a mesh, cards or points of another program (LS-DYNA, Abaqus, Gmsh, VTK, CSV) into a case");
   command
-      ->add_option("file", options->file,
-                   "The file: .k, .key (LS-DYNA), .inp (Abaqus), .msh, .vtu and others (meshio), .step (gmsh), .csv, .xyz")
+      ->add_option(
+          "file", options->file,
+          "The file: .k, .key (LS-DYNA), .inp (Abaqus), .msh, .vtu and others (meshio), .step (gmsh), .csv, .xyz")
       ->required();
   command->add_option("--units", options->units,
                       "The units of the file: SI, or length, time and mass as in mm,ms,kg; of a mesh the length alone");
@@ -82,7 +82,8 @@ void add_import(CLI::App& program, Action& action) {
                    "packed: particles of equal volume within the surface of the mesh (default); elements: one particle "
                    "for each element, at its centroid with its volume")
       ->check(CLI::IsMember({"packed", "elements"}));
-  command->add_option("--spacing", options->spacing, "Distance of particles, such as 2mm (default: as fine as the mesh)");
+  command->add_option("--spacing", options->spacing,
+                      "Distance of particles, such as 2mm (default: as fine as the mesh)");
   command
       ->add_option("--formulation", options->formulation,
                    "Default: nodal; for particles of elements and tables the one that takes them")

@@ -111,7 +111,7 @@ class _Reader:
         kind = plain_type(keyword.get("TYPE"))
         if kind is None:
             self.model.left.add(f"ELEMENT, TYPE={keyword.get('TYPE')}", keyword.place,
-                                f"{len(keyword.lines):,} elements are left out: Piola has solids and plane elements alone")
+                                f"{len(keyword.lines):,} elements are left out: solids and plane elements are read")
             return
         if kind in ("C3D15", "C3D20", "CPE6", "CPE8", "CPS6", "CPS8", "CAX6", "CAX8"):
             self.model.left.add(f"ELEMENT, TYPE={keyword.get('TYPE')}", keyword.place,
@@ -121,8 +121,8 @@ class _Reader:
         if numbers is None:
             return
         if len(numbers) % count:
-            self.problems.add(keyword.place, f"the lines of *ELEMENT, TYPE={kind} hold {len(numbers):,} numbers, which is "
-                              f"no multiple of {count} - the file is cut off or a line is too short")
+            self.problems.add(keyword.place, f"the lines of *ELEMENT, TYPE={kind} hold {len(numbers):,} numbers, which "
+                              f"is no multiple of {count} - the file is cut off or a line is too short")
             return
         rows = numbers.reshape(-1, count)
         here.elements.append((kind, rows))
@@ -136,10 +136,14 @@ class _Reader:
             self.problems.add(self.path, "has no solid or plane elements" + (
                 "" if self.instances else ": no part has an *INSTANCE in an *ASSEMBLY"))
         elif len(kinds) > 1:
-            self.problems.add(self.path, f"has elements of several kinds of section ({', '.join(sorted(kinds))}) - import "
-                              "them one by one")
+            self.problems.add(self.path, f"has elements of several kinds of section ({', '.join(sorted(kinds))}) - "
+                              "import them one by one")
         elif "C3D" not in kinds:
             self.model.dimension, self.model.assumption = 2, ASSUMPTIONS[kinds.pop()]
+
+
+def _is_number(text):
+    return text.isdigit() and len(text) < 16
 
 
 def _members(keyword, problems):
@@ -152,10 +156,8 @@ def _members(keyword, problems):
             if 0 <= last - first < 10**8:
                 members.append(np.arange(first, last + 1, max(step, 1)))
             continue
-        if all(text.isdigit() for text in texts):
-            numbers += map(int, texts)
-        else:
-            members += [np.array([int(text)]) if text.isdigit() else text.upper() for text in texts]
+        numbers += [int(text) for text in texts if _is_number(text)]
+        members += [text.upper() for text in texts if not _is_number(text)]
     return members + [np.array(numbers, dtype=np.int64)]
 
 
@@ -205,8 +207,8 @@ class _Placed:
     def _rows_of(self, ids, table, kind):
         rows = rows_of(ids, table[:, 1:])
         for k, n in zip(*np.nonzero(rows < 0)):
-            self.problems.add(self.reader.path, f"element {table[k, 0]} ({kind}) has the node {table[k, n + 1]}, which is "
-                              "not there", "has a node which is not there")
+            self.problems.add(self.reader.path, f"element {table[k, 0]} ({kind}) has the node {table[k, n + 1]}, which "
+                              "is not there", "has a node which is not there")
         return rows
 
     def _sections(self):
@@ -253,7 +255,7 @@ class _Placed:
     def _resolve(self, name, instance, place, kind, ids, first, depth):
         if isinstance(name, str) and "." in name and name.split(".")[0] in self.instances:
             instance, name = name.split(".", 1)
-        if isinstance(name, str) and name.isdigit():
+        if isinstance(name, str) and _is_number(name):
             name = np.array([int(name)])
         if not isinstance(name, str):
             order = np.argsort(ids.get(instance, []), kind="stable")

@@ -86,5 +86,6 @@ def _number(text, keyword, row, problems):
     try:
         return float(text or 0)
     except ValueError:
-        problems.add(keyword.at(row), f"\"{text[:30]}\" is not a number (*{keyword.name}) - correct it", "is not a number")
+        problems.add(keyword.at(row), f"\"{text[:30]}\" is not a number (*{keyword.name}) - correct it",
+                     "is not a number")
         return 0.0

@@ -54,13 +54,21 @@ class Keyword:
 
     def numbers_of_all(self, problems):
         """Whole numbers of all lines in one list: of elements whose nodes go on in the next line."""
-        text = ",".join(line.rstrip(" ,") for line in self.lines)
         try:
-            return np.array(list(map(int, text.split(","))), dtype=np.int64) if text else np.zeros(0, dtype=np.int64)
-        except ValueError:
-            for row in range(len(self.lines)):
-                self.values(row, problems, len(self.fields(row)) - (not self.fields(row)[-1]))
-            return None
+            return _integers(",".join(line.rstrip(" ,") for line in self.lines))
+        except (ValueError, OverflowError):
+            pass
+        for row, line in enumerate(self.lines):
+            try:
+                _integers(line.rstrip(" ,"))
+            except (ValueError, OverflowError):
+                problems.add(self.at(row), f"\"{line[:40]}\" is no list of whole numbers (*{self.name}) - correct it",
+                             "is no list of whole numbers")
+        return None
+
+
+def _integers(text):
+    return np.array(list(map(int, text.split(","))) if text else [], dtype=np.int64)
 
 
 def read_keywords(path, problems, count=0):

@@ -6,10 +6,12 @@ from .model import Material
 READ = {"DENSITY", "ELASTIC", "PLASTIC", "RATE DEPENDENT", "HYPERELASTIC", "EOS", "SPECIFIC HEAT",
         "INELASTIC HEAT FRACTION", "DAMAGE INITIATION", "TENSILE FAILURE"}
 # Keywords that may stand below *MATERIAL; others end it.
-OPTIONS = READ | {"DAMAGE EVOLUTION", "DAMPING", "EXPANSION", "CONDUCTIVITY", "VISCOELASTIC", "SHEAR FAILURE", "USER MATERIAL",
-                  "DEPVAR", "CONCRETE DAMAGED PLASTICITY", "DRUCKER PRAGER", "CREEP", "HYPERFOAM", "MULLINS EFFECT",
+OPTIONS = READ | {"DAMAGE EVOLUTION", "DAMPING", "EXPANSION", "CONDUCTIVITY", "VISCOELASTIC", "SHEAR FAILURE",
+                  "USER MATERIAL", "DEPVAR", "CONCRETE DAMAGED PLASTICITY", "DRUCKER PRAGER", "CREEP", "HYPERFOAM",
+                  "MULLINS EFFECT",
                   "CYCLIC HARDENING", "POTENTIAL", "CRUSHABLE FOAM", "VISCOSITY", "GAS SPECIFIC HEAT", "LATENT HEAT",
-                  "DETONATION POINT", "ANNEAL TEMPERATURE", "HYSTERESIS", "CAP PLASTICITY", "NO COMPRESSION", "NO TENSION"}
+                  "DETONATION POINT", "ANNEAL TEMPERATURE", "HYSTERESIS", "CAP PLASTICITY", "NO COMPRESSION",
+                  "NO TENSION"}
 
 
 class Card:
@@ -133,5 +135,5 @@ def _hyperelastic(card, density):
     bulk = 2 / d1 if d1 > 0 else 2 * (c10 + c01) * 20
     material = hyperelastic(card.name, density, c10 * stress, c01 * stress, bulk=bulk * stress)
     if d1 <= 0:
-        material.notes.append("D1 = 0: a bulk modulus of 20 shear moduli is taken (nu = 0.475), as Abaqus/Explicit does")
+        material.notes.append("D1 = 0: a bulk modulus of 20 shear moduli is taken (nu = 0.475), as in Abaqus/Explicit")
     return material

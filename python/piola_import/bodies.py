@@ -59,7 +59,8 @@ def bodies_of(model, volume, wanted_spacing, mixed):
         surface = hull(faces_of(elements) if model.dimension == 3 else edges_of(elements))
         total = float(volume[rows].sum())
         narrowest = np.ptp(model.X[elements.ravel(), :model.dimension], axis=0).min()
-        spacing = wanted_spacing or min((total / _particles(model, rows))**(1 / model.dimension), narrowest / LEAST_ACROSS)
+        of_mesh = (total / _particles(model, rows))**(1 / model.dimension)
+        spacing = wanted_spacing or min(of_mesh, narrowest / LEAST_ACROSS)
         bodies.append(Body(model.parts[parts[0]], parts, rows, surface, spacing, total))
     at = {part: k for k, body in enumerate(bodies) for part in body.parts}
     return bodies, sorted({(at[a], at[b]) for a, b in sharing if at[a] != at[b]})

@@ -35,17 +35,18 @@ def main(arguments):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(prog="piola import", description="Turns a mesh, cards or a cloud of points of another "
-                                     "program into a case: LS-DYNA (.k), Abaqus (.inp), Gmsh (.msh), VTK (.vtu), all "
-                                     "that meshio reads, CAD (.step, by gmsh), tables (.csv, .xyz).")
+    parser = argparse.ArgumentParser(prog="piola import", description="Turns a mesh, cards or a cloud of points of "
+                                     "another program into a case: LS-DYNA (.k), Abaqus (.inp), Gmsh (.msh), VTK "
+                                     "(.vtu), all that meshio reads, CAD (.step, by gmsh), tables (.csv, .xyz).")
     parser.add_argument("file", help="the file of the other program")
     parser.add_argument("--units", default="", help="its units: SI, or length, time and mass as in mm,ms,kg (meshes: a "
                         "length is enough)")
     parser.add_argument("--out", "-o", default="", help="the folder to write (default: the name of the file)")
     parser.add_argument("--particles", choices=["packed", "elements"], default="packed",
-                        help="packed: the surface is filled with even particles; elements: one particle per element, at "
-                        "its centroid with its volume")
-    parser.add_argument("--spacing", default="", help="distance of particles, such as 2mm (default: as fine as the mesh)")
+                        help="packed: the surface is filled with even particles; elements: one particle per element, "
+                        "at its centroid with its volume")
+    parser.add_argument("--spacing", default="",
+                        help="distance of particles, such as 2mm (default: as fine as the mesh)")
     parser.add_argument("--formulation", choices=["nodal", "jst_sph", "adaptle"], default="",
                         help="default: nodal; for one particle per element and clouds the one that takes them")
     parser.add_argument("--material", default="", help="material of the library for parts without one")
@@ -56,13 +57,15 @@ def _parser():
 def _import(given):
     source = Path(given.file)
     if not source.is_file():
-        raise ValueError(f"{source}: {'is a folder' if source.is_dir() else 'does not exist'} - name the file to import")
+        what = "is a folder" if source.is_dir() else "does not exist"
+        raise ValueError(f"{source}: {what} - name the file to import")
     folder = Path(given.out or source.stem)
     if (folder / "case.toml").exists() and not given.force:
         raise ValueError(f"{folder}/case.toml is there already - name another folder by --out, or add --force")
     if folder.exists() and not folder.is_dir():
         raise ValueError(f"{folder} is a file - name a folder by --out")
-    options = Options(source.name, given.particles == "elements", given.formulation, _length(given.spacing), given.material)
+    options = Options(source.name, given.particles == "elements", given.formulation, _length(given.spacing),
+                      given.material)
     if options.particles and options.formulation == "nodal":
         raise ValueError("--formulation nodal takes no particles from files (allowed: jst_sph, adaptle) - leave out "
                          "--particles elements: the surface is then packed")

@@ -31,8 +31,8 @@ class Block:
         if "," in line:
             found = [text.strip() for text in line.split(",")]
         else:
-            ends = np.cumsum([20] * len(widths) if self.long else widths)
-            found = [line[end - width:end].strip() for end, width in zip(ends, [20] * len(widths) if self.long else widths)]
+            widths = [20] * len(widths) if self.long else widths
+            found = [line[end - width:end].strip() for end, width in zip(np.cumsum(widths), widths)]
         found += [""] * (len(widths) - len(found))
         return [self.parameters.get(text[1:].lower(), text) if text.startswith("&") else text for text in found]
 

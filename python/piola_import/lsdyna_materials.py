@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Material cards and equations of state of LS-DYNA as keys of Piola. Names and numbers: LS-DYNA Keyword Manual, Vol. II."""
+"""Material cards and equations of state of LS-DYNA as keys of Piola (LS-DYNA Keyword Manual, Volumes I and II)."""
 from .materials import fracture_strain, from_moduli, hyperelastic, johnson_cook, plastic, tabulated
 from .model import Material
 
@@ -59,8 +59,8 @@ def plastic_kinematic(card):
                        _hardening(E, tangent) * card.stress)
     fracture_strain(material, strain)
     if tangent > 0 and beta < 1:
-        material.notes.append(f"BETA = {beta:g}: its kinematic hardening is taken as isotropic (the same until the load "
-                              "reverses)")
+        material.notes.append(f"BETA = {beta:g}: its kinematic hardening is taken as isotropic (the same until the "
+                              "load reverses)")
     if rate_c > 0:
         material.notes.append("its rate dependence (Cowper and Symonds, SRC and SRP) is left out")
     return material
@@ -97,7 +97,8 @@ def piecewise_linear(card):
     count = sum(value > 0 for value in stresses)
     elastic_keys, density = card.elastic(E, nu), density * card.units.density
     if count > 1:
-        material = tabulated(card.name, density, elastic_keys, [s * card.stress for s in stresses[:count]], strains[:count])
+        stresses = [s * card.stress for s in stresses[:count]]
+        material = tabulated(card.name, density, elastic_keys, stresses, strains[:count])
     else:
         material = plastic(card.name, density, elastic_keys, yield_stress * card.stress,
                            _hardening(E, tangent) * card.stress)
@@ -131,7 +132,7 @@ def mat_johnson_cook(card):
     elastic_keys = card.elastic(0, nu, G) if G > 0 else card.elastic(E, nu)
     material = johnson_cook(card.name, density * card.units.density, elastic_keys, numbers)
     if damage[2] > 0:
-        material.notes.append("D3 is positive: this material is tougher in tension than in compression; is the sign right?")
+        material.notes.append("D3 is positive: tougher in tension than in compression; is the sign right?")
     return material
 
 
@@ -171,7 +172,8 @@ def hyperelastic_rubber(card):
 def grueneisen(row, units):
     """*EOS_GRUNEISEN: keys of Piola. row: EOSID C S1 S2 S3 GAMAO A E0."""
     _, C, s1, s2, s3, gamma, a, energy = row
-    keys = {"eos": "mie_grueneisen", "bulk_sound_speed": C * units.velocity, "hugoniot_s1": s1, "grueneisen_gamma": gamma}
+    keys = {"eos": "mie_grueneisen", "bulk_sound_speed": C * units.velocity, "hugoniot_s1": s1,
+            "grueneisen_gamma": gamma}
     keys |= {key: value for key, value in (("hugoniot_s2", s2), ("hugoniot_s3", s3), ("grueneisen_slope", a)) if value}
     return keys, ["its initial energy E0 is left out"] if energy else []
 

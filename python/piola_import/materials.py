@@ -19,7 +19,7 @@ def plastic(name, density, elastic, yield_stress, hardening):
 
 
 def fracture_strain(material, strain):
-    """Failure at one plastic strain, whatever rate, temperature and pressure: Johnson and Cook's damage with D1 alone."""
+    """Failure at a plastic strain whatever rate, temperature and pressure: Johnson and Cook's damage with D1 alone."""
     if strain > 0:
         material.keys |= {"damage": "johnson_cook", "d1": strain}
 

@@ -173,7 +173,8 @@ def _take_sets(model, mesh, tags, names, table, rows):
                 faces.setdefault(tag, []).append(chosen)
     for tag, found in faces.items():
         if tag or names:
-            model.surfaces[name_of(names.get((dimension, tag), f"faces {tag}"), model.taken, "faces")] = np.vstack(found)
+            name = name_of(names.get((dimension, tag), f"faces {tag}"), model.taken, "faces")
+            model.surfaces[name] = np.vstack(found)
     for name, points in (getattr(mesh, "point_sets", None) or {}).items():
         model.node_sets[name_of(name, model.taken, "nodes")] = np.unique(np.asarray(points, dtype=np.int64))
     for name, cells in (getattr(mesh, "cell_sets", None) or {}).items():

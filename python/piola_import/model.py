@@ -140,8 +140,8 @@ def whole(values, place, problems):
     """Numbers as int64; those that are no whole numbers up to 1e15 are problems."""
     odd = ~((np.abs(values) < 1e15) & (values == np.floor(values)))
     if odd.any():
-        problems.add(place, f"{values[odd].ravel()[0]:g} stands where a number of a node, element or set should be - correct "
-                     "it")
+        problems.add(place, f"{values[odd].ravel()[0]:g} is no number of a node, element or set (a whole number is "
+                     "expected) - correct it")
     return np.where(odd, 0, values).astype(np.int64)
 
 

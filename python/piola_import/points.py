@@ -29,8 +29,8 @@ def read_csv(path, units_text, problems):
     header = [name.strip().strip('"') for name in lines[0].split(mark)]
     names = [name.split("[")[0].strip().lower() for name in header]
     if "x" not in names:
-        problems.add(path, f"has no column x (its header is \"{lines[0][:60]}\") - name the columns x, y, z, volume in the "
-                     "first line")
+        problems.add(path, f"has no column x (its header is \"{lines[0][:60]}\") - name the columns x, y, z, volume in "
+                     "the first line")
         return None
     has_units = any("[" in name for name in header)
     if not has_units and not units_text:

@@ -33,8 +33,9 @@ def volumes_and_centroids(corners):
     A volume is negative if the corners run the wrong way.
     """
     dimension = corners.shape[2]
-    signs = np.array([[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]])
-    signs = signs[:2**dimension, :dimension].astype(float)
+    signs = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]], dtype=float)
+    if dimension == 3:
+        signs = np.vstack([np.column_stack([signs, np.full(4, z)]) for z in (-1.0, 1.0)])
     origin = corners.mean(axis=1)
     local = corners - origin[:, None]
     volume, moment = np.zeros(len(corners)), np.zeros((len(corners), dimension))
@@ -50,8 +51,8 @@ def volumes_and_centroids(corners):
 def curved_tetrahedra(nodes):
     """Exact volumes and centroids of tetrahedra of ten nodes (n, 10, 3); their edges are parabolas.
 
-    The determinant is a cubic and the first moment a quintic: a product rule of 4 x 4 x 4 points over the collapsed cube
-    is exact for both.
+    The determinant is a cubic and the first moment a quintic: a product rule of 4 x 4 x 4 points over the collapsed
+    cube is exact for both.
     """
     points, weights = np.polynomial.legendre.leggauss(4)
     points, weights = (points + 1) / 2, weights / 2
@@ -125,8 +126,8 @@ def triangles_of(faces, X, middles=None):
     """Triangles of faces (f, 4), the face of each, and the corners X with those that had to be added.
 
     Plane faces are cut along a diagonal. A warped face gets a corner in its middle, which keeps the volume of the
-    bilinear surface exactly. `middles`: nodes in the middle of edges, by (smaller, larger) corner; a triangle with three
-    of them becomes four.
+    bilinear surface exactly. `middles`: nodes in the middle of edges, by (smaller, larger) corner; a triangle with
+    three of them becomes four.
     """
     corners = X[faces]
     across = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])

@@ -6,6 +6,7 @@ LENGTH = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "in": 0.0254, "ft": 0.30
 TIME = {"s": 1.0, "ms": 1e-3, "us": 1e-6}
 MASS = {"kg": 1.0, "g": 1e-3, "mg": 1e-6, "tonne": 1e3, "t": 1e3, "lb": 0.45359237, "slug": 14.593902937206364,
         "slinch": 175.12683524647636}
+KINDS = {"length": LENGTH, "time": TIME, "mass": MASS}
 
 
 @dataclass(frozen=True)
@@ -45,13 +46,13 @@ def read_units(text):
     for word in text.replace("-", ",").replace("/", ",").replace(" ", ",").split(","):
         if not word:
             continue
-        kind = next((kind for kind, known in (("length", LENGTH), ("time", TIME), ("mass", MASS)) if word in known), None)
+        kind = next((kind for kind, known in KINDS.items() if word in known), None)
         if kind is None:
             raise ValueError(f"--units {text}: \"{word}\" is not a unit (allowed: SI; {', '.join(LENGTH)}; "
                              f"{', '.join(TIME)}; {', '.join(MASS)}) - name a length, a time and a mass, as mm,ms,kg")
         if kind in found:
             raise ValueError(f"--units {text}: names two units of {kind} - name one")
-        found[kind] = {"length": LENGTH, "time": TIME, "mass": MASS}[kind][word]
+        found[kind] = KINDS[kind][word]
     if not found:
         raise ValueError(f"--units \"{text}\": names no unit - write for example mm,ms,kg or SI")
     return Units(**found)

@@ -52,13 +52,13 @@ class CaseWriter:
         if (model.assumption == "plane_stress" and mixed) or self._prefers_jst_sph():
             self._take_elastic_law()
         for a, b in self.sharing if options.particles else []:
-            problems.add(options.source, f"the parts {self.bodies[a].name} and {self.bodies[b].name} share nodes and have "
-                         "different materials, but particles of elements cannot be joined or tied - leave out "
+            problems.add(options.source, f"the parts {self.bodies[a].name} and {self.bodies[b].name} share nodes and "
+                         "have different materials, but particles of elements cannot be joined or tied - leave out "
                          "--particles elements")
         problems.stop_if_any()
 
     def _prefers_jst_sph(self):
-        """Particles from files that stay elastic are calmer under jst_sph than under adaptle; it refuses rigid shapes."""
+        """Particles from files that stay elastic keep their energy under jst_sph alone, which refuses rigid shapes."""
         return self.options.particles and self.options.formulation != "adaptle" and not self.model.walls
 
     def _take_elastic_law(self):
@@ -66,7 +66,7 @@ class CaseWriter:
         for material in filter(None, self.model.materials):
             if material.keys == material.keys | {"law": "elastic"} and "eos" not in material.keys:
                 material.keys["law"] = "saint_venant_kirchhoff"
-                material.notes.append("saint_venant_kirchhoff takes the place of elastic here: the same at small strain")
+                material.notes.append("saint_venant_kirchhoff takes the place of elastic: the same at small strain")
 
     def write(self):
         """Writes all files; returns lines that say what the bodies are."""
@@ -98,7 +98,7 @@ class CaseWriter:
             nodes = np.zeros(len(self.model.X), dtype=bool)
             nodes[velocity.nodes] = True
             if not nodes[self.model.elements].all(axis=1).any():
-                self.model.left.add("initial velocity", velocity.place, "its nodes are those of no whole element: left out")
+                self.model.left.add("initial velocity", velocity.place, "its nodes make no whole element: left out")
 
     def _whole_case(self, sections):
         model, case = self.model, Section()
@@ -118,8 +118,8 @@ class CaseWriter:
             if self.options.formulation == "jst_sph":
                 case.table("[[tie]]", {"between": [self.bodies[a].name, self.bodies[b].name]})
             else:
-                self.notes.append(f"{self.bodies[a].name} and {self.bodies[b].name} share nodes: write a [[tie]] between "
-                                  "them")
+                self.notes.append(f"{self.bodies[a].name} and {self.bodies[b].name} share nodes: write a [[tie]] "
+                                  "between them")
         (self.folder / "case.toml").write_text("\n".join(case.lines + sections.lines) + "\n", encoding="utf-8")
 
     def _crossing(self, body):
@@ -242,7 +242,8 @@ class CaseWriter:
             if len(own) == len(rows) < len(body.rows) and not self._is_part(own):
                 self._region_of_rows(name, own)
         if self.model.gravity:
-            sections.table("[[load]]", {"body": body.name, "acceleration": list(self.model.gravity[:self.model.dimension])})
+            gravity = list(self.model.gravity[:self.model.dimension])
+            sections.table("[[load]]", {"body": body.name, "acceleration": gravity})
 
     def _fix(self, axes):
         return axes if self.model.dimension == 3 else axes.replace("z", "") or axes

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from decks import InFolder, abaqus_mesh, block
+from decks import CORNERS, InFolder, abaqus_mesh, block
 
 UNITS = ("--units", "mm,s,tonne")
 STEEL = "*MATERIAL, NAME=Steel\n*DENSITY\n7.85e-9,\n*ELASTIC\n210000., 0.3\n"
@@ -29,11 +29,11 @@ class Mesh(InFolder):
         self.assertIn("mass 0.5024 kg", check)
 
     def test_every_kind_of_solid_has_its_volume(self):
-        c = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)], dtype=float)
+        c = np.array(CORNERS, dtype=float)
         edges = [(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)]
         corners = c[[0, 1, 3, 4]]
         ten = np.vstack([corners, [corners[[a, b]].mean(axis=0) for a, b in edges]])
-        for kind, nodes, volume in (("C3D4", corners, 1 / 6), ("C3D10M", ten, 1 / 6), ("C3D5", c[[0, 1, 2, 3, 4]], 1 / 3),
+        for kind, nodes, volume in (("C3D4", corners, 1 / 6), ("C3D10M", ten, 1 / 6), ("C3D5", c[:5], 1 / 3),
                                     ("C3D6", c[[0, 1, 3, 4, 5, 7]], 1 / 2), ("C3D8I", c, 1)):
             text = abaqus_mesh(nodes, [range(len(nodes))], kind) + SECTION + STEEL
             Path("one.inp").write_text(text, encoding="ascii")
@@ -68,7 +68,8 @@ class Mesh(InFolder):
         nodes = [(x, y, 0) for y in range(4) for x in range(4)]
         quads = [(4 * j + i, 4 * j + i + 1, 4 * j + i + 5, 4 * j + i + 4) for j in range(3) for i in range(3)]
         for kind, keys in (("CPE4R", {}), ("CPS4", {"assumption": "plane_stress"}), ("CAX4R", {})):
-            text = abaqus_mesh(nodes, quads, kind) + SECTION + STEEL + "*NSET, NSET=base\n1, 2, 3, 4\n*BOUNDARY\nbase, 2, 2\n"
+            held = "*NSET, NSET=base\n1, 2, 3, 4\n*BOUNDARY\nbase, 2, 2\n"
+            text = abaqus_mesh(nodes, quads, kind) + SECTION + STEEL + held
             case, output, check = self.imported("plate.inp", text, *UNITS)
             self.assertIn("9e-06 m^2", output)
             self.assertEqual(case["body"][0]["formulation"], {"name": "nodal", **keys})
@@ -115,28 +116,32 @@ class Materials(InFolder):
         self.assertIn("30 MPa off", output)
 
     def test_johnson_cook_with_damage_turns_the_sign_of_d3(self):
-        self.material("*DENSITY\n7.83e-9\n*ELASTIC\n200000, 0.29\n*SPECIFIC HEAT\n477e6\n*INELASTIC HEAT FRACTION\n0.8\n"
+        self.material("*DENSITY\n7.83e-9\n*ELASTIC\n200000, 0.29\n*SPECIFIC HEAT\n477e6\n"
+                      "*INELASTIC HEAT FRACTION\n0.8\n"
                       "*PLASTIC, HARDENING=JOHNSON COOK\n792, 510, 0.26, 1.03, 1793, 293\n"
                       "*RATE DEPENDENT, TYPE=JOHNSON COOK\n0.014, 1.0\n"
                       "*DAMAGE INITIATION, CRITERION=JOHNSON COOK\n0.05, 3.44, 2.12, 0.002, 0.61, 1793, 293, 1.0\n",
                       law="johnson_cook", density=7830, youngs_modulus=200e9, poissons_ratio=0.29, yield_stress=792e6,
-                      hardening_coefficient=510e6, hardening_exponent=0.26, thermal_exponent=1.03, melting_temperature=1793,
-                      reference_temperature=293, rate_coefficient=0.014, reference_rate=1.0, specific_heat=477,
+                      hardening_coefficient=510e6, hardening_exponent=0.26, thermal_exponent=1.03,
+                      melting_temperature=1793, reference_temperature=293, rate_coefficient=0.014, reference_rate=1.0,
+                      specific_heat=477,
                       heat_fraction=0.8, damage="johnson_cook", d1=0.05, d2=3.44, d3=-2.12, d4=0.002, d5=0.61)
 
     def test_hyperelastic_constants_and_compressibility(self):
         # mu = 2 C10 = 1 MPa, K = 2 / D1 = 50 MPa: E = 9 K mu / (3 K + mu), nu = (3 K - 2 mu) / (2 (3 K + mu)).
         elastic = {"youngs_modulus": 9 * 50e6 * 1e6 / 151e6, "poissons_ratio": 148 / 302}
-        self.material("*DENSITY\n1.1e-9\n*HYPERELASTIC, NEO HOOKE\n0.5, 0.04\n", law="neo_hookean", density=1100, **elastic)
-        self.material("*DENSITY\n1.1e-9\n*HYPERELASTIC, MOONEY-RIVLIN\n0.4, 0.1, 0.04\n", law="mooney_rivlin", density=1100,
-                      c10_fraction=0.8, **elastic)
-        output = self.material("*DENSITY\n1.1e-9\n*HYPERELASTIC, NEO HOOKE\n0.5, 0\n", law="neo_hookean", density=1100,
+        rubber = "*DENSITY\n1.1e-9\n*HYPERELASTIC, "
+        self.material(rubber + "NEO HOOKE\n0.5, 0.04\n", law="neo_hookean", density=1100, **elastic)
+        self.material(rubber + "MOONEY-RIVLIN\n0.4, 0.1, 0.04\n", law="mooney_rivlin", density=1100, c10_fraction=0.8,
+                      **elastic)
+        output = self.material(rubber + "NEO HOOKE\n0.5, 0\n", law="neo_hookean", density=1100,
                                youngs_modulus=9 * 20e6 * 1e6 / 61e6, poissons_ratio=58 / 122)
         self.assertIn("20 shear moduli", output)
 
     def test_shock_equation_of_state_with_a_shear_modulus(self):
         bulk = 8930 * 3940**2
-        self.material("*DENSITY\n8.93e-9\n*ELASTIC, TYPE=SHEAR\n47700\n*EOS, TYPE=USUP\n3.94e6, 1.489, 2.02\n*PLASTIC\n120, 0\n",
+        self.material("*DENSITY\n8.93e-9\n*ELASTIC, TYPE=SHEAR\n47700\n*EOS, TYPE=USUP\n3.94e6, 1.489, 2.02\n"
+                      "*PLASTIC\n120, 0\n",
                       law="perfectly_plastic", density=8930, youngs_modulus=9 * bulk * 47.7e9 / (3 * bulk + 47.7e9),
                       poissons_ratio=(3 * bulk - 95.4e9) / (2 * (3 * bulk + 47.7e9)), yield_stress=120e6,
                       eos="mie_grueneisen", bulk_sound_speed=3940, hugoniot_s1=1.489, grueneisen_gamma=2.02)
@@ -145,8 +150,8 @@ class Materials(InFolder):
 class Rest(InFolder):
     def test_conditions_and_what_is_left(self):
         more = ("*NSET, NSET=foot, GENERATE\n1, 25, 1\n*INITIAL CONDITIONS, TYPE=VELOCITY\nwhole, 3, -5000.\n"
-                "*AMPLITUDE, NAME=ramp\n0, 0, 1, 1\n*STEP\n*DYNAMIC, EXPLICIT\n, 2e-4\n*BOUNDARY\nfoot, XSYMM\nfoot, 3, 3, 1.5\n"
-                "*DLOAD\n, GRAV, 9810., 0, 0, -1\n*END STEP\n")
+                "*AMPLITUDE, NAME=ramp\n0, 0, 1, 1\n*STEP\n*DYNAMIC, EXPLICIT\n, 2e-4\n*BOUNDARY\nfoot, XSYMM\n"
+                "foot, 3, 3, 1.5\n*DLOAD\n, GRAV, 9810., 0, 0, -1\n*END STEP\n")
         text = flat(more=more).replace("*NODE\n", "*NODE, NSET=Whole\n")
         case, output, _ = self.imported("cube.inp", text, *UNITS)
         self.assertEqual(case["body"][0]["initial_velocity"], [0.0, 0.0, -5.0])

@@ -101,20 +101,23 @@ class Sets(InFolder):
                 "*BOUNDARY_SPC_SET\n" + card(3, 0, 1, 1, 0) + "*SET_SEGMENT\n" + card(9) + segments + "\n" +
                 dyna_set("SET_SOLID", 4, list(range(65, 129))) + dyna_set("SET_NODE_LIST", 8, [int(grid[2, 0, 0]) + 1]))
         case, _, check = self.imported("bar.k", deck(more=more), *UNITS)
-        self.assertEqual(case["support"], [{"name": "hold_clamped_end", "body": "bar", "patch": "clamped_end", "fix": "xy"}])
+        self.assertEqual(case["support"],
+                         [{"name": "hold_clamped_end", "body": "bar", "patch": "clamped_end", "fix": "xy"}])
         self.assertRegex(check, r'patch "clamped_end": 0.0004 m\^2 around \(0, 0.01, 0.01\)')
         self.assertRegex(check, r'patch "segments_9": 2.5e-05 m\^2 around \(0.04, 0.0025, 0.0025\)')
         self.assertRegex(check, r'region "solids_4": 64 particles')
 
     def test_conditions_of_particles_of_elements_hold_the_first_layer(self):
         _, _, grid = block((8, 4, 4), (40, 20, 20))
-        more = dyna_set("SET_NODE_LIST", 3, (grid[0] + 1).ravel().tolist()) + "*BOUNDARY_SPC_SET\n" + card(3, 0, 1, 1, 1)
+        end = dyna_set("SET_NODE_LIST", 3, (grid[0] + 1).ravel().tolist())
+        more = end + "*BOUNDARY_SPC_SET\n" + card(3, 0, 1, 1, 1)
         _, _, check = self.imported("bar.k", deck(more=more), *UNITS, "--particles", "elements")
         self.assertIn('support of "bar": 16 particles', check)
 
     def test_velocity_wall_and_end(self):
         more = ("*INITIAL_VELOCITY_GENERATION\n" + card(1, 2, 0.0, -200.0, 0.0, 0.0) + "\n" +
-                "*RIGIDWALL_PLANAR\n" + card(0) + card(-0.5, 0, 0, 9.5, 0, 0, 0) + "*CONTROL_TERMINATION\n" + card(0.05))
+                "*RIGIDWALL_PLANAR\n" + card(0) + card(-0.5, 0, 0, 9.5, 0, 0, 0) +
+                "*CONTROL_TERMINATION\n" + card(0.05))
         case, _, check = self.imported("bar.k", deck(more=more), *UNITS)
         self.assertEqual(case["body"][0]["initial_velocity"], [-200.0, 0.0, 0.0])
         self.assertEqual(case["run"]["end"], 5e-5)
@@ -148,8 +151,9 @@ class Materials(InFolder):
 
     def test_isotropic_elastic_plastic(self):
         # G 80 GPa, K 160 GPa: E = 9 K G / (3 K + G) = 205.714 GPa, nu = (3 K - 2 G) / (2 (3 K + G)) = 2 / 7.
-        self.material("*MAT_ISOTROPIC_ELASTIC_PLASTIC\n" + card(1, "7.85E-6", 80, 0.3, 1.5, 160), law="isotropic_hardening",
-                      density=7850, youngs_modulus=9 * 160e9 * 80e9 / 560e9, poissons_ratio=2 / 7, yield_stress=300e6,
+        self.material("*MAT_ISOTROPIC_ELASTIC_PLASTIC\n" + card(1, "7.85E-6", 80, 0.3, 1.5, 160),
+                      law="isotropic_hardening", density=7850, youngs_modulus=9 * 160e9 * 80e9 / 560e9, poissons_ratio=2 / 7,
+                      yield_stress=300e6,
                       hardening_modulus=1.5e9)
 
     def test_johnson_cook_with_grueneisen(self):
@@ -161,23 +165,26 @@ class Materials(InFolder):
                 "*EOS_GRUNEISEN\n" + card(7, 3940, 1.489, 0, 0, 2.02, 0.47, 0.0) + card(1.0))
         self.material(text, 7, law="johnson_cook", density=8960, youngs_modulus=9 * bulk * 46e9 / (3 * bulk + 46e9),
                       poissons_ratio=(3 * bulk - 92e9) / (2 * (3 * bulk + 46e9)), yield_stress=90e6,
-                      hardening_coefficient=292e6, hardening_exponent=0.31, rate_coefficient=0.025, thermal_exponent=1.09,
-                      melting_temperature=1356, reference_temperature=294, reference_rate=1.0, specific_heat=383,
+                      hardening_coefficient=292e6, hardening_exponent=0.31, rate_coefficient=0.025,
+                      thermal_exponent=1.09, melting_temperature=1356, reference_temperature=294, reference_rate=1.0,
+                      specific_heat=383,
                       damage="johnson_cook", d1=0.54, d2=4.89, d3=-3.03, d4=0.014, d5=1.12, spall_pressure=1.2e9,
                       spall="hydrostatic", eos="mie_grueneisen", bulk_sound_speed=3940, hugoniot_s1=1.489,
                       grueneisen_gamma=2.02, grueneisen_slope=0.47)
 
     def test_simplified_johnson_cook_and_polynomial(self):
-        self.material("*MAT_SIMPLIFIED_JOHNSON_COOK\n" + card(1, "7.85E-6", 200, 0.3) + card(0.35, 0.275, 0.36, 0.022, 1e17,
-                                                                                          1e28, 1e28, 0.001),
+        self.material("*MAT_SIMPLIFIED_JOHNSON_COOK\n" + card(1, "7.85E-6", 200, 0.3) +
+                      card(0.35, 0.275, 0.36, 0.022, 1e17, 1e28, 1e28, 0.001),
                       law="johnson_cook", density=7850, youngs_modulus=200e9, poissons_ratio=0.3, yield_stress=350e6,
                       hardening_coefficient=275e6, hardening_exponent=0.36, rate_coefficient=0.022, reference_rate=1.0,
                       melting_temperature=2000)
-        self.material("*MAT_ELASTIC_PLASTIC_HYDRO\n" + card(1, "2.7E-6", 27.0, 0.3, 0.1, -1.0) + "*EOS_LINEAR_POLYNOMIAL\n" +
-                      card(3, 0, 74.2, 60.5, 36.5, 1.96, 0, 0) + card(0, 1), 3, law="isotropic_hardening", density=2700,
+        self.material("*MAT_ELASTIC_PLASTIC_HYDRO\n" + card(1, "2.7E-6", 27.0, 0.3, 0.1, -1.0) +
+                      "*EOS_LINEAR_POLYNOMIAL\n" + card(3, 0, 74.2, 60.5, 36.5, 1.96, 0, 0) + card(0, 1), 3,
+                      law="isotropic_hardening", density=2700,
                       youngs_modulus=9 * 74.2e9 * 27e9 / (3 * 74.2e9 + 27e9),
-                      poissons_ratio=(3 * 74.2 - 54) / (2 * (3 * 74.2 + 27)), yield_stress=300e6, hardening_modulus=100e6,
-                      spall_pressure=1e9, eos="polynomial", c1=74.2e9, c2=60.5e9, c3=36.5e9, c4=1.96)
+                      poissons_ratio=(3 * 74.2 - 54) / (2 * (3 * 74.2 + 27)), yield_stress=300e6,
+                      hardening_modulus=100e6, spall_pressure=1e9, eos="polynomial", c1=74.2e9,
+                      c2=60.5e9, c3=36.5e9, c4=1.96)
 
     def test_rubber_has_twice_the_sum_of_its_constants_as_shear_modulus(self):
         output = self.material("*MAT_MOONEY-RIVLIN_RUBBER\n" + card(1, "1.1E-6", 0.49, "4.0E-4", "1.0E-4"),

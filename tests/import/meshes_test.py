@@ -72,8 +72,8 @@ class Meshes(InFolder):
     def test_broken_meshes_are_refused(self):
         self.meshio.Mesh(self.X, [("hexahedron", self.solids)]).write("cube.vtu")
         data = Path("cube.vtu").read_bytes()
-        for name, content in (("cut.vtu", data[:len(data) // 2]), ("noise.msh", bytes(range(256)) * 40), ("empty.vtk", b""),
-                              ("text.msh", b"no mesh at all\n"), ("odd.foo", b"1 2 3\n")):
+        for name, content in (("cut.vtu", data[:len(data) // 2]), ("noise.msh", bytes(range(256)) * 40),
+                              ("empty.vtk", b""), ("text.msh", b"no mesh at all\n"), ("odd.foo", b"1 2 3\n")):
             self.refused(name, content, name, "cannot be read as a mesh", arguments=("--units", "mm"))
         self.meshio.Mesh(self.X, [("hexahedron", self.solids[:, [3, 2, 1, 0, 7, 6, 5, 4]])]).write("turned.vtu")
         self.refused("turned.vtu", Path("turned.vtu").read_bytes(), "element 1", "positive", "59 more",
@@ -116,8 +116,10 @@ class Units(InFolder):
 
     def test_missing_and_odd_units_are_refused(self):
         text = "*KEYWORD\n" + dyna_mesh(*block((3, 3, 3), (30, 30, 30))[:2]) + part_card(1, "cube", 1) + STEEL
-        for units, words in (((), ("does not say its units", "--units mm,ms,kg")), (("--units", "mm,ms"), ("too few units",)),
-                             (("--units", "mm,parsec,kg"), ("parsec", "allowed")), (("--units", "mm,cm,kg"), ("two units",)),
+        for units, words in (((), ("does not say its units", "--units mm,ms,kg")),
+                             (("--units", "mm,ms"), ("too few units",)),
+                             (("--units", "mm,parsec,kg"), ("parsec", "allowed")),
+                             (("--units", "mm,cm,kg"), ("two units",)),
                              (("--units", "mm,ms,kg", "--spacing", "-3"), ("--spacing", "no length"))):
             self.refused("cube.k", text, *words, arguments=units)
 
@@ -135,7 +137,8 @@ class Large(InFolder):
         Path("slab.k").write_text(text, encoding="ascii")
         start = time.process_time(), time.monotonic()
         with tempfile.TemporaryDirectory() as folder:
-            output = self.run_import("slab.k", "--units", "mm,ms,kg", "--out", f"{folder}/out", "--particles", "elements")
+            output = self.run_import("slab.k", "--units", "mm,ms,kg", "--out", f"{folder}/out", "--particles",
+                                     "elements")
         self.assertIn("100,000 elements, 0.0001 m^3, 0.785 kg", output)
         self.assertLess(time.monotonic() - start[1], 60)  # about 3 s on an idle core
 

@@ -62,8 +62,8 @@ class Elements(unittest.TestCase):
         self.assertAlmostEqual(centroid[0, 0], moment / volume[0], places=14)
 
     def test_plane_elements(self):
-        area, centroid = volumes_and_centroids(np.array([[[0, 0], [4, 0], [2, 2], [0, 2]], [[0, 0], [3, 0], [0, 3], [0, 3]]],
-                                                        dtype=float))
+        plane = [[[0, 0], [4, 0], [2, 2], [0, 2]], [[0, 0], [3, 0], [0, 3], [0, 3]]]
+        area, centroid = volumes_and_centroids(np.array(plane, dtype=float))
         np.testing.assert_allclose(area, [6, 4.5], rtol=1e-14)
         np.testing.assert_allclose(centroid, [[14 / 9, 8 / 9], [1, 1]], rtol=1e-12)
 
