@@ -81,8 +81,14 @@ def isotropic_elastic_plastic(card):
 @card_of("010", "10", "ELASTIC_PLASTIC_HYDRO")
 def elastic_plastic_hydro(card):
     _, density, shear, yield_stress, hardening, cutoff, strain, _ = card.row(0)
-    material = plastic(card.name, density * card.units.density, card.elastic(0, 0, shear), yield_stress * card.stress,
-                       hardening * card.stress)
+    elastic_keys, density = card.elastic(0, 0, shear), density * card.units.density
+    strains, stresses = card.row(1) + card.row(2), card.row(3) + card.row(4)
+    count = sum(value > 0 for value in stresses)
+    if count > 1:
+        material = tabulated(card.name, density, elastic_keys, [s * card.stress for s in stresses[:count]],
+                             strains[:count])
+    else:
+        material = plastic(card.name, density, elastic_keys, yield_stress * card.stress, hardening * card.stress)
     if cutoff < 0:
         material.keys["spall_pressure"] = -cutoff * card.stress
     fracture_strain(material, strain)

@@ -152,8 +152,8 @@ class Materials(InFolder):
     def test_isotropic_elastic_plastic(self):
         # G 80 GPa, K 160 GPa: E = 9 K G / (3 K + G) = 205.714 GPa, nu = (3 K - 2 G) / (2 (3 K + G)) = 2 / 7.
         self.material("*MAT_ISOTROPIC_ELASTIC_PLASTIC\n" + card(1, "7.85E-6", 80, 0.3, 1.5, 160),
-                      law="isotropic_hardening", density=7850, youngs_modulus=9 * 160e9 * 80e9 / 560e9, poissons_ratio=2 / 7,
-                      yield_stress=300e6,
+                      law="isotropic_hardening", density=7850, youngs_modulus=9 * 160e9 * 80e9 / 560e9,
+                      poissons_ratio=2 / 7, yield_stress=300e6,
                       hardening_modulus=1.5e9)
 
     def test_johnson_cook_with_grueneisen(self):
@@ -202,6 +202,14 @@ class Materials(InFolder):
         self.assertNotIn("is no line", output)
         output = self.material(line + card(0, 0.1, 0.2) + card(0.3, 0.45, 0.5), **keys)
         self.assertIn("50 MPa off", output)
+
+    def test_table_of_a_card_with_an_equation_of_state(self):
+        text = ("*MAT_ELASTIC_PLASTIC_HYDRO\n" + card(1, "2.7E-6", 27.0, 0, 0) + card(0, 0.1, 0.2) + "\n" +
+                card(0.3, 0.4, 0.5) + "\n*EOS_LINEAR_POLYNOMIAL\n" + card(3, 0, 74.2) + card(0, 1))
+        self.material(text.replace("\n\n", "\n" + card(0) ), 3, law="isotropic_hardening", density=2700,
+                      youngs_modulus=9 * 74.2e9 * 27e9 / (3 * 74.2e9 + 27e9),
+                      poissons_ratio=(3 * 74.2 - 54) / (2 * (3 * 74.2 + 27)), yield_stress=300e6, hardening_modulus=1e9,
+                      eos="polynomial", c1=74.2e9)
 
     def test_unknown_card_leaves_a_placeholder(self):
         case, output, _ = self.imported("m.k", deck("*MAT_SOIL_AND_FOAM\n" + card(1, "2E-6", 1, 1)), *UNITS)
