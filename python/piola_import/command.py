@@ -27,7 +27,8 @@ def main(arguments):
     except ValueError as error:
         print(f"piola: {error}", file=sys.stderr)
     except OSError as error:
-        print(f"piola: {error.filename or options.out}: cannot be written or read ({error.strerror}) - choose another "
+        folder = options.out or Path(options.file).stem
+        print(f"piola: {folder} cannot be written, or {options.file} not read ({error.strerror}) - choose another "
               "folder by --out", file=sys.stderr)
     except MemoryError:
         print(f"piola: {options.file}: too large for the memory of this computer", file=sys.stderr)

@@ -49,7 +49,7 @@ class CaseWriter:
         self.regions = {}
         self.taken = {*model.parts, *model.node_sets, *model.element_sets, *model.surfaces}
         self.notes = []
-        if (model.assumption == "plane_stress" and mixed) or self._prefers_jst_sph():
+        if (model.assumption == "plane_stress" and mixed) or self._takes_jst_sph():
             self._take_elastic_law()
         for a, b in self.sharing if options.particles else []:
             problems.add(options.source, f"the parts {self.bodies[a].name} and {self.bodies[b].name} share nodes and "
@@ -57,9 +57,10 @@ class CaseWriter:
                          "--particles elements")
         problems.stop_if_any()
 
-    def _prefers_jst_sph(self):
-        """Particles from files that stay elastic keep their energy under jst_sph alone, which refuses rigid shapes."""
-        return self.options.particles and self.options.formulation != "adaptle" and not self.model.walls
+    def _takes_jst_sph(self):
+        """Elastic particles of elements are stable under jst_sph alone, which refuses rigid shapes for them."""
+        by_default = self.options.particles and not self.options.formulation and not self.model.walls
+        return by_default or self.options.formulation == "jst_sph"
 
     def _take_elastic_law(self):
         """Plane stress of nodal, and jst_sph, are for hyperelastic laws: elastic materials get one."""
@@ -115,11 +116,7 @@ class CaseWriter:
             case.table("[[rigid]]", {"name": name_of("wall", self.taken, "wall"),
                                      "plane": {"point": list(wall.point[:d]), "normal": list(wall.normal[:d])}})
         for a, b in self.sharing:
-            if self.options.formulation == "jst_sph":
-                case.table("[[tie]]", {"between": [self.bodies[a].name, self.bodies[b].name]})
-            else:
-                self.notes.append(f"{self.bodies[a].name} and {self.bodies[b].name} share nodes: write a [[tie]] "
-                                  "between them")
+            case.table("[[tie]]", {"between": [self.bodies[a].name, self.bodies[b].name]})
         (self.folder / "case.toml").write_text("\n".join(case.lines + sections.lines) + "\n", encoding="utf-8")
 
     def _crossing(self, body):
@@ -177,7 +174,9 @@ class CaseWriter:
         else:
             name = "adaptle" if plane_stress and yields else "nodal"
         name = self.options.formulation or name
-        return {"name": name} | ({"assumption": "plane_stress"} if plane_stress and name != "jst_sph" else {})
+        tied = name == "adaptle" and self.sharing
+        return ({"name": name} | ({"assumption": "plane_stress"} if plane_stress and name != "jst_sph" else {})
+                | ({"description": "total_lagrangian"} if tied else {}))
 
     def _part_region(self, part):
         """The region of a part, made when it is asked for."""

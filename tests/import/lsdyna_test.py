@@ -77,6 +77,10 @@ class Mesh(InFolder):
         self.assertEqual(len(case["body"]), 1)
         self.assertEqual(case["body"][0]["part"][0]["where"], "right")
         self.assertIn("mass 0.0844 kg", check)
+        case, _, check = self.imported("two.k", Path("two.k").read_text(encoding="ascii"), *UNITS, "--formulation",
+                                       "adaptle")
+        self.assertEqual(case["tie"], [{"between": ["left", "right"]}])
+        self.assertIn('16 points of "left" and "right"', check)
         X, solids, _ = block((4, 4, 4), (20, 20, 20))
         text = "*KEYWORD\n" + dyna_mesh(np.vstack([X, X + [50, 0, 0]]), np.vstack([solids, solids + 125]), part)
         case, _, check = self.imported("apart.k", text + parts + STEEL + light, *UNITS)

@@ -5,6 +5,9 @@
 Environment: PIOLA_PROGRAM. Skipped without meshio: what needs it.
 """
 import importlib.util
+import re
+import shutil
+import subprocess
 import tempfile
 import time
 import tomllib
@@ -79,8 +82,22 @@ class Meshes(InFolder):
         self.refused("turned.vtu", Path("turned.vtu").read_bytes(), "element 1", "positive", "59 more",
                      arguments=("--units", "mm"))
 
-    def test_files_of_cad_need_a_spacing_and_gmsh(self):
+    def test_files_of_cad_need_gmsh_and_a_spacing(self):
         self.refused("part.step", "ISO-10303-21;", "gmsh", arguments=("--units", "mm", "--spacing", "1mm"))
+        if shutil.which("gmsh"):
+            self.refused("part.step", "ISO-10303-21;", "--spacing", arguments=("--units", "mm"))
+
+    @unittest.skipUnless(shutil.which("gmsh"), "gmsh is not installed")
+    def test_bodies_of_cad_have_their_volume(self):
+        Path("plate.geo").write_text('SetFactory("OpenCASCADE");\nBox(1) = {0, 0, 0, 10, 4, 4};\n'
+                                     "Cylinder(2) = {5, 2, -1, 0, 0, 6, 1};\n"
+                                     "BooleanDifference{ Volume{1}; Delete; }{ Volume{2}; Delete; }\n",
+                                     encoding="ascii")
+        subprocess.run(["gmsh", "-0", "-v", "1", "plate.geo", "-o", "plate.step"], check=True,
+                       stdout=subprocess.DEVNULL)
+        output = self.run_import("plate.step", "--units", "mm", "--spacing", "0.5mm")
+        found = float(re.search(r"elements, (\S+) m\^3", output)[1])
+        self.assertAlmostEqual(found / (1e-9 * (160 - 4 * np.pi)), 1, delta=5e-4)
 
 
 class Points(InFolder):
