@@ -3,15 +3,15 @@
 import numpy as np
 
 from .lsdyna_cards import Blocks, table
+from .lsdyna_conditions import Conditions
 from .lsdyna_materials import Card, grueneisen, kind_of, linear_polynomial
 from .materials import problems_of
-from .model import Model, Support, Velocity, Wall, name_of, rows_of, sorted_nodes, whole
+from .model import Model, name_of, rows_of, sorted_nodes, whole
 from .solids import TETRAHEDRON, TETRAHEDRON_EDGES
 
 # Keywords whose work Piola does by itself or without settings.
 BY_ITSELF = ("CONTROL_", "DATABASE_", "HOURGLASS", "SECTION_SOLID", "CONTACT_AUTOMATIC", "CONTACT_ERODING")
 SILENT = {"KEYWORD", "TITLE", "COMMENT", "NODE", "END"}
-AXES = "xyz"
 
 
 def read_lsdyna(path, units, problems):
@@ -41,10 +41,10 @@ class _Reader:
             self._sets(block)
         self._parts()
         self._name_sets()
+        conditions = Conditions(self)
         for block in self.blocks:
-            self._card(block)
-        for fix, ids in self.held.items():
-            self._support(f"hold_{fix}", np.unique(ids), fix)
+            self._card(block, conditions)
+        conditions.hold_nodes()
         return self.model
 
     def _of(self, *keywords):
@@ -171,7 +171,7 @@ class _Reader:
     def _name_sets(self):
         """Sets of nodes and solids by their names."""
         for title, ids in self.sets["NODE"].values():
-            if len(rows := self._rows(ids)):
+            if len(rows := self.rows(ids)):
                 self.model.node_sets[name_of(title, self.names, "nodes")] = rows
         order = np.argsort(self.model.element_ids)
         for title, ids in self.sets["SOLID"].values():
@@ -182,12 +182,12 @@ class _Reader:
             if rows:
                 self.model.element_sets[name_of(title, self.names, "parts")] = np.concatenate(rows)
 
-    def _rows(self, ids):
+    def rows(self, ids):
         """Rows of nodes, those left out that no file has (unused nodes of other programs)."""
         rows = rows_of(self.ids, ids)
         return rows[rows >= 0]
 
-    def _card(self, block):
+    def _card(self, block, conditions):
         """All that is no mesh and no material."""
         keyword, left = block.keyword, self.model.left
         if keyword in SILENT | {"PART", "ELEMENT_SOLID"} or keyword.startswith(("SET_NODE", "SET_PART", "SET_SOLID",
@@ -201,79 +201,9 @@ class _Reader:
                      "part with solids, three or more through its thickness")
         elif keyword.startswith("ELEMENT_"):
             left.add(keyword, block.place, f"elements in {len(block.lines):,} lines are left out")
-        elif not self._condition(block):
+        elif not conditions.take(block):
             by_itself = keyword.startswith(BY_ITSELF)
             left.add(keyword, block.place, "not needed: Piola has its own" if by_itself else "no counterpart")
-
-    def _condition(self, block):
-        """Supports, initial velocities, walls, the end; whether the keyword is one of these."""
-        keyword = block.keyword.removesuffix("_ID")
-        first = int(block.keyword.endswith("_ID"))
-        if keyword == "CONTROL_TERMINATION":
-            self.model.end = (block.card(0, self.problems)[0] * self.units.time) or None
-        elif keyword in ("BOUNDARY_SPC_SET", "BOUNDARY_SPC_NODE"):
-            self._constraint(block, first, keyword.endswith("SET"))
-        elif keyword in ("INITIAL_VELOCITY", "INITIAL_VELOCITY_NODE", "INITIAL_VELOCITY_GENERATION"):
-            self._velocity(block, keyword)
-        elif keyword == "RIGIDWALL_PLANAR":
-            tail, head = np.split(np.array(block.card(first + 1, self.problems)[:6]) * self.units.length, 2)
-            self.model.walls.append(Wall(tuple(tail), tuple((head - tail) / max(np.linalg.norm(head - tail), 1e-300))))
-            if block.card(first + 1, self.problems)[6]:
-                self.model.left.add(block.keyword, block.place, "its friction is left out: write contact.friction")
-        else:
-            return False
-        return True
-
-    def _constraint(self, block, first, of_set):
-        for row in range(first, len(block.lines), 1 + first):
-            number, system, *dofs = block.card(row, self.problems)[:5]
-            fix = "".join(axis for axis, dof in zip(AXES, dofs) if dof)
-            if system:
-                self.model.left.add(block.keyword, block.at(row), "its local coordinates (CID) are left out")
-            elif fix and not of_set:
-                self.held.setdefault(fix, []).append(int(number))
-            elif fix:
-                title, ids = self.sets["NODE"].get(int(number), (None, []))
-                if title is None:
-                    self.problems.add(block.at(row), f"holds the set of nodes {number:g}, which is not there - add it")
-                self._support(title, ids, fix)
-
-    def _support(self, name, ids, fix):
-        rows = self._rows(ids)
-        if len(rows):
-            self.model.supports.append(Support(name, rows, fix))
-
-    def _velocity(self, block, keyword):
-        everything = np.arange(len(self.model.X))
-        if keyword == "INITIAL_VELOCITY":
-            number = int(block.card(0, self.problems)[0])
-            nodes = self._rows(self.sets["NODE"].get(number, ("", []))[1]) if number else everything
-            self._start(nodes, block.card(1, self.problems)[:3], block, block.card(1, self.problems)[3:6])
-        elif keyword == "INITIAL_VELOCITY_NODE":
-            rows = table(block, None, (10,) * 4, 4, self.problems)
-            for value in np.unique(rows[:, 1:], axis=0):
-                nodes = whole(rows[(rows[:, 1:] == value).all(axis=1), 0], block.place, self.problems)
-                self._start(self._rows(nodes), value, block, [])
-        else:
-            for row in range(0, len(block.lines), 2):
-                number, kind, spin, *value = block.card(row, self.problems)[:6]
-                self._start(self._generation(int(number), int(kind), everything), value, block, [spin])
-
-    def _generation(self, number, kind, everything):
-        """Nodes of a set of parts (1), a part (2) or a set of nodes (3); number 0: all."""
-        if number == 0:
-            return everything
-        if kind == 3:
-            return self._rows(self.sets["NODE"].get(number, ("", []))[1])
-        parts = [number] if kind == 2 else self.sets["PART"].get(number, ("", np.array([])))[1].tolist()
-        rows = [self.model.elements[self.part_rows[pid]].ravel() for pid in parts if pid in self.part_rows]
-        return np.unique(np.concatenate(rows)) if rows else everything[:0]
-
-    def _start(self, nodes, value, block, turning):
-        if any(turning):
-            self.model.left.add(block.keyword, block.place, "its rotation is left out: write it as formulas")
-        value = tuple(float(v) * self.units.velocity for v in value)
-        self.model.velocities.append(Velocity(nodes, value, block.place))
 
 
 def _id_of(block, row):

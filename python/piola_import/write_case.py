@@ -5,12 +5,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .bodies import bodies_of, make_patches, measure, selections
-from .files import around_edges, around_nodes, outline, text, write_particles, write_surface
+from .files import outline, text, write_particles, write_surface
 from .model import name_of
-from .solids import edges_of, faces_of, hull
+from .regions import Regions
 
 MOST_NODES = 200          # of a set without faces, each of which becomes a ball
-NEAR = 0.75               # spacings around faces, within which the first layer of particles lies
 HYPERELASTIC = {"neo_hookean", "mooney_rivlin", "saint_venant_kirchhoff"}
 PLACEHOLDER = "steel_4340"
 
@@ -46,7 +45,7 @@ class CaseWriter:
         self.volume, self.centroid = measure(model, problems)
         mixed = not options.particles and options.formulation in ("", "nodal")
         self.bodies, self.sharing = bodies_of(model, self.volume, options.spacing, mixed)
-        self.regions = {}
+        self.regions = Regions(model, folder)
         self.taken = {*model.parts, *model.node_sets, *model.element_sets, *model.surfaces}
         self.notes = []
         if (model.assumption == "plane_stress" and mixed) or self._takes_jst_sph():
@@ -109,7 +108,7 @@ class CaseWriter:
         end = model.end or 10 * max(self._crossing(body) for body in self.bodies)
         comment = [] if model.end else ["Placeholder: ten times the way of a pressure wave through the largest body."]
         case.table("[run]", {"end": float(f"{end:.4g}")}, comment)
-        for name, entry in self.regions.items():
+        for name, entry in self.regions.entries.items():
             case.table("[[region]]", {"name": name, **entry})
         for wall in model.walls:
             d = model.dimension
@@ -138,7 +137,7 @@ class CaseWriter:
                        comment + text_of_velocity)
         for part in body.parts[1:]:
             keys, comment = self._material_keys(model.materials[part], model.parts[part])
-            sections.table("[[body.part]]", {"name": model.parts[part], "where": self._part_region(part),
+            sections.table("[[body.part]]", {"name": model.parts[part], "where": self.regions.of_part(part),
                                              "material": keys}, comment)
         self._conditions(body, chosen, sections)
 
@@ -178,32 +177,6 @@ class CaseWriter:
         return ({"name": name} | ({"assumption": "plane_stress"} if plane_stress and name != "jst_sph" else {})
                 | ({"description": "total_lagrangian"} if tied else {}))
 
-    def _part_region(self, part):
-        """The region of a part, made when it is asked for."""
-        return self._region_of_rows(self.model.parts[part], np.flatnonzero(self.model.part == part))
-
-    def _region_of_rows(self, name, rows):
-        """A region that is the inside of elements, as a name for formulas."""
-        if name not in self.regions:
-            elements = self.model.elements[rows]
-            if self.model.dimension == 2:
-                self.regions[name] = {"shape": outline(hull(edges_of(elements)), self.model.X)}
-            else:
-                file = f"region_{name}.obj"
-                write_surface(self.folder / file, hull(faces_of(elements)), self.model.X, self.model.middles)
-                self.regions[name] = {"shape": {"mesh": {"file": file, "unit": "m"}}}
-        return name
-
-    def _region_of_faces(self, name, faces, spacing):
-        """A region of the particles next to faces."""
-        if self.model.dimension == 2:
-            self.regions[name] = {"shape": around_edges(faces, self.model.X, float(f"{NEAR * spacing:.4g}"))}
-        else:
-            file = f"region_{name}.obj"
-            write_surface(self.folder / file, faces, self.model.X)
-            self.regions[name] = {"near": {"file": file, "unit": "m", "within": float(f"{NEAR * spacing:.4g}")}}
-        return name
-
     def _velocity(self, body):
         """Formulas of the initial velocity, and a comment if a card could not be followed; the last card counts."""
         terms, d = ["0.0"] * self.model.dimension, self.model.dimension
@@ -215,18 +188,18 @@ class CaseWriter:
             if inside.all():
                 terms = value
             elif inside.any():
-                region = self._velocity_region(body, body.rows[inside])
+                region = self._moving_region(body.rows[inside])
                 terms = [old if old == v else f"{region} ? {v} : {old if '?' not in old else f'({old})'}"
                          for v, old in zip(value, terms)]
         if all(term == "0.0" for term in terms):
             return None, []
         return [float(term) if "?" not in term else term for term in terms], []
 
-    def _velocity_region(self, body, rows):
-        for part in body.parts:
-            if np.array_equal(rows, np.flatnonzero(self.model.part == part)):
-                return self._part_region(part)
-        return self._region_of_rows(name_of("moving", self.taken, "moving"), rows)
+    def _moving_region(self, rows):
+        part = self.regions.part_of(rows)
+        if part is not None:
+            return self.regions.of_part(part)
+        return self.regions.of_rows(name_of("moving", self.taken, "moving"), rows)
 
     def _conditions(self, body, chosen, sections):
         """Supports of a body, gravity, and regions of the sets that have no patch."""
@@ -238,17 +211,14 @@ class CaseWriter:
                                                "fix": self._fix(self.fixed[name])})
         for name, rows in self.model.element_sets.items():
             own = np.intersect1d(rows, body.rows)
-            if len(own) == len(rows) < len(body.rows) and not self._is_part(own):
-                self._region_of_rows(name, own)
+            if len(own) == len(rows) < len(body.rows) and self.regions.part_of(own) is None:
+                self.regions.of_rows(name, own)
         if self.model.gravity:
             gravity = list(self.model.gravity[:self.model.dimension])
             sections.table("[[load]]", {"body": body.name, "acceleration": gravity})
 
     def _fix(self, axes):
         return axes if self.model.dimension == 3 else axes.replace("z", "") or axes
-
-    def _is_part(self, rows):
-        return any(np.array_equal(rows, np.flatnonzero(self.model.part == k)) for k in range(len(self.model.parts)))
 
     def _places(self, body, name, selection, is_support):
         """Keys that say where a set is: patches, a region, or everything. Makes the regions that are wanted."""
@@ -258,13 +228,11 @@ class CaseWriter:
             return [{"where": "1 > 0"}]
         own = name if len(self.bodies) == 1 else f"{name}_{body.name}"
         if len(selection.rows):
-            return [{"where": self._region_of_rows(own, selection.rows)}]
+            return [{"where": self.regions.of_rows(own, selection.rows)}]
         if selection.faces.any():
-            return [{"where": self._region_of_faces(own, body.surface[selection.faces], body.spacing)}]
+            return [{"where": self.regions.of_faces(own, body.surface[selection.faces], body.spacing)}]
         if is_support and len(selection.nodes) <= MOST_NODES:
-            radius = float(f"{NEAR * body.spacing:.4g}")
-            self.regions[own] = {"shape": around_nodes(selection.nodes, self.model.X, radius, self.model.dimension)}
-            return [{"where": own}]
+            return [{"where": self.regions.of_nodes(own, selection.nodes, body.spacing)}]
         if is_support or len(selection.nodes) > 0:
             self.notes.append(f"the set {name} of {body.name} has no whole face or element: left out")
         return []
