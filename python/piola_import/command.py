@@ -8,6 +8,7 @@ import tempfile
 from pathlib import Path
 
 from . import points
+from .files import printable
 from .model import ImportProblems, Problems
 from .units import names_all, read_units
 from .write_case import CaseWriter, Options
@@ -21,11 +22,17 @@ def main(arguments):
     """Exit code 0: something was converted; 2: nothing was, or the input is broken."""
     options = _parser().parse_args(arguments)
     try:
-        return _import(options)
+        code = _import(options)
+        sys.stdout.flush()
+        return code
     except ImportProblems as error:
-        print("".join(f"piola: {line}\n" for line in str(error).splitlines()), end="", file=sys.stderr)
+        for line in str(error).splitlines():
+            print(f"piola: {printable(line)}", file=sys.stderr)
     except ValueError as error:
         print(f"piola: {error}", file=sys.stderr)
+    except BrokenPipeError:  # the reader of the report has gone, and the folder is written
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
     except OSError as error:
         folder = options.out or Path(options.file).stem
         print(f"piola: {folder} cannot be written, or {options.file} not read ({error.strerror}) - choose another "
@@ -152,7 +159,7 @@ def _report(source, folder, about, left):
     print("\n".join(about))
     if left:
         print("Not taken over, or not in full:")
-        print("\n".join(left))
+        print("\n".join(map(printable, left)))
     else:
         print("Everything in the file was understood.")
     print(f"Next: piola check {folder}/case.toml; add loads, probes and output; piola run {folder}/case.toml")

@@ -7,6 +7,11 @@ import numpy as np
 from .solids import loops_of, triangles_of
 
 
+def printable(line):
+    """A line without control characters, which a file may have in its names."""
+    return "".join(c if c.isprintable() else "?" for c in line)
+
+
 def text(value):
     """A value of TOML: numbers with twelve digits, lists, tables in one line, texts."""
     if isinstance(value, bool):

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .bodies import bodies_of, make_patches, measure, selections
-from .files import outline, text, write_particles, write_surface
+from .files import outline, printable, text, write_particles, write_surface
 from .model import name_of
 from .regions import Regions
 
@@ -33,7 +33,7 @@ class Section:
         self.lines += lines
 
     def table(self, head, entries, comment=()):
-        self.lines += ["", *(f"# {line}" for line in comment), head]
+        self.lines += ["", *(f"# {printable(line)}" for line in comment), head]
         self.lines += [f"{key} = {text(value)}" for key, value in entries.items() if value is not None]
 
 
@@ -131,10 +131,8 @@ class CaseWriter:
             make_patches(body, chosen)
         keys, comment = self._material_keys(material, body.name)
         formulation = self._formulation(material)
-        velocity, text_of_velocity = self._velocity(body)
         sections.table("[[body]]", {"name": body.name, "shape": self._shape(body), "material": keys,
-                                    "formulation": formulation, "initial_velocity": velocity},
-                       comment + text_of_velocity)
+                                    "formulation": formulation, "initial_velocity": self._velocity(body)}, comment)
         for part in body.parts[1:]:
             keys, comment = self._material_keys(model.materials[part], model.parts[part])
             sections.table("[[body.part]]", {"name": model.parts[part], "where": self.regions.of_part(part),
@@ -178,7 +176,7 @@ class CaseWriter:
                 | ({"description": "total_lagrangian"} if tied else {}))
 
     def _velocity(self, body):
-        """Formulas of the initial velocity, and a comment if a card could not be followed; the last card counts."""
+        """Numbers or formulas of the initial velocity, None at rest; of several cards the last one counts."""
         terms, d = ["0.0"] * self.model.dimension, self.model.dimension
         for velocity in self.model.velocities:
             nodes = np.zeros(len(self.model.X), dtype=bool)
@@ -192,8 +190,8 @@ class CaseWriter:
                 terms = [old if old == v else f"{region} ? {v} : {old if '?' not in old else f'({old})'}"
                          for v, old in zip(value, terms)]
         if all(term == "0.0" for term in terms):
-            return None, []
-        return [float(term) if "?" not in term else term for term in terms], []
+            return None
+        return [float(term) if "?" not in term else term for term in terms]
 
     def _moving_region(self, rows):
         part = self.regions.part_of(rows)
