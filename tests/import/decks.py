@@ -74,8 +74,8 @@ class InFolder(unittest.TestCase):
         Path(name).write_text(text, encoding="utf-8")
         output = self.run_import(name, "--out", "out", "--force", *arguments)
         case = tomllib.loads(Path("out/case.toml").read_text(encoding="utf-8"))
-        done = subprocess.run([PROGRAM, "check", "out/case.toml", "--set", "run.end=1e-9"], capture_output=True, text=True,
-                              check=False)  # an early end: few trial steps
+        early = ("--set", "run.end=1e-9")  # few trial steps
+        done = subprocess.run([PROGRAM, "check", "out/case.toml", *early], capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return case, output, done.stdout
 
