@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "piola/base/errors.hpp"
 #include "commands.hpp"
-#include <array>
-#include <cerrno>
-#include <climits>
-#include <cstdlib>
-#include <cstring>
-#include <filesystem>
+#include "python_module.hpp"
 #include <memory>
-#include <unistd.h>
 
 namespace piola::app {
 namespace {
@@ -19,30 +12,8 @@ struct ImportArguments {
   bool force = false;
 };
 
-/// The program in Python that converts: beside the program in a build folder, below share where it is installed.
-std::filesystem::path converter() {
-  std::array<char, PATH_MAX> program{};
-  ::ssize_t const length = ::readlink("/proc/self/exe", program.data(), program.size() - 1);
-  std::filesystem::path const folder = std::filesystem::path(length > 0 ? program.data() : "").parent_path();
-  std::error_code ignored;
-  for (char const* const place : {"python", "../share/piola/python"}) {
-    auto found = folder / place / "piola_import" / "__main__.py";
-    if (std::filesystem::exists(found, ignored)) return found;
-  }
-  throw InputError("the converter piola_import is neither in " + (folder / "python").string() + " nor in " +
-                   (folder / "../share/piola/python").lexically_normal().string() + " - install Piola again");
-}
-
-/// The Python for which the distribution installs its packages, unless the variable PIOLA_PYTHON names another one.
-std::string interpreter() {
-  char const* const named = std::getenv("PIOLA_PYTHON");
-  if (named != nullptr && *named != '\0') return named;
-  return ::access("/usr/bin/python3", X_OK) == 0 ? "/usr/bin/python3" : "python3";
-}
-
-/// Continues as the converter; returns only if there is no Python.
 int convert(ImportArguments const& options) {
-  std::vector<std::string> words{interpreter(), "-B", converter().string()};
+  std::vector<std::string> words;
   auto const pass_on = [&](char const* name, std::string const& value) {
     if (!value.empty()) words.push_back(name + ("=" + value));
   };
@@ -55,12 +26,7 @@ int convert(ImportArguments const& options) {
   if (options.force) words.emplace_back("--force");
   words.emplace_back("--");
   words.push_back(options.file);
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  ::execvp(arguments[0], arguments.data());
-  throw InputError("piola import needs Python, and " + words[0] + " cannot be started (" + std::strerror(errno) +
-                   ") - install the packages python3 and python3-numpy, for Gmsh and VTK also python3-meshio");
+  return continue_in_python("piola_import", words, "python3 and python3-numpy, for Gmsh and VTK also python3-meshio");
 }
 
 }  // namespace

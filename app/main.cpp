@@ -91,6 +91,7 @@ int run_command(int argc, char** argv) {
   app::add_describe(program, action);
   app::add_bench(program, action);
   app::add_import(program, action);
+  app::add_identify(program, action);
   try {
     program.parse(argc, argv);
   } catch (CLI::ParseError const& error) {

@@ -18,8 +18,10 @@ if(TARGET piola_app)
     COMMAND sh -c "$<TARGET_FILE:piola_app> describe completion > ${_pages}/piola"
     DEPENDS piola_app COMMENT "Writing the manual page and the completion" VERBATIM)
   add_custom_target(piola_pages ALL DEPENDS "${_pages}/piola.1.gz")
-  install(FILES ${PIOLA_IMPORT_FILES} DESTINATION "${CMAKE_INSTALL_DATADIR}/piola/python/piola_import"
-          COMPONENT program)
+  foreach(package IN LISTS PIOLA_PYTHON_PROGRAMS)
+    install(FILES ${PIOLA_FILES_OF_${package}} DESTINATION "${CMAKE_INSTALL_DATADIR}/piola/python/${package}"
+            COMPONENT program)
+  endforeach()
   install(FILES "${_pages}/piola.1.gz" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT program)
   install(FILES "${_pages}/piola" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" COMPONENT program)
 endif()
@@ -83,8 +85,8 @@ set(CPACK_DEBIAN_PACKAGE_HOMEPAGE "${PROJECT_HOMEPAGE_URL}")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME piola)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3, python3-numpy, python3-meshio")  # piola import
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "gmsh, python3-h5py, python3-netcdf4")       # CAD files, MED, Exodus
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3, python3-numpy, python3-meshio, python3-scipy")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "gmsh, python3-h5py, python3-netcdf4, python3-matplotlib")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
     "Piola computes the fast motion of solids that deform, flow and break, with\nsmoothed particle \
 hydrodynamics. Cases are text files; results open in\nParaView. This package has the program, its examples and its \

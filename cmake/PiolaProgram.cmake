@@ -15,17 +15,20 @@ target_compile_definitions(piola_app PRIVATE PIOLA_VERSION="${PROJECT_VERSION}")
 target_link_libraries(piola_app PRIVATE piola piola_warnings piola_host piola_hardened
                                         CLI11::CLI11 nlohmann_json::nlohmann_json)
 
-# The converter of `piola import`, beside the program as it is found in a build folder.
-file(GLOB PIOLA_IMPORT_FILES CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/python/piola_import/*.py")
+# What `piola import` and `piola identify` are written in, beside the program as it is found in a build folder.
+set(PIOLA_PYTHON_PROGRAMS piola_import piola_identify)
 set(_copied "")
-foreach(file IN LISTS PIOLA_IMPORT_FILES)
-  get_filename_component(name "${file}" NAME)
-  set(_copy "${PROJECT_BINARY_DIR}/python/piola_import/${name}")
-  add_custom_command(OUTPUT "${_copy}" DEPENDS "${file}" COMMAND "${CMAKE_COMMAND}" -E copy "${file}" "${_copy}")
-  list(APPEND _copied "${_copy}")
+foreach(package IN LISTS PIOLA_PYTHON_PROGRAMS)
+  file(GLOB PIOLA_FILES_OF_${package} CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/python/${package}/*.py")
+  foreach(file IN LISTS PIOLA_FILES_OF_${package})
+    get_filename_component(name "${file}" NAME)
+    set(_copy "${PROJECT_BINARY_DIR}/python/${package}/${name}")
+    add_custom_command(OUTPUT "${_copy}" DEPENDS "${file}" COMMAND "${CMAKE_COMMAND}" -E copy "${file}" "${_copy}")
+    list(APPEND _copied "${_copy}")
+  endforeach()
 endforeach()
-add_custom_target(piola_import_files ALL DEPENDS ${_copied})
-add_dependencies(piola_app piola_import_files)
+add_custom_target(piola_python_programs ALL DEPENDS ${_copied})
+add_dependencies(piola_app piola_python_programs)
 
 # The same program for ranks: the same objects, with MPI where the library has one rank. The linker takes nothing out of
 # the library that is there already, so domain/communicator_serial.cpp stays out, as long as it is an object of its own.

@@ -32,5 +32,7 @@ set(PIOLA_PYTHON_INSTALL "lib/python3/dist-packages" CACHE STRING "Where the mod
 if(PROJECT_IS_TOP_LEVEL)
   install(TARGETS piola_python LIBRARY DESTINATION "${PIOLA_PYTHON_INSTALL}/piola" COMPONENT python)
   install(FILES ${_python_files} DESTINATION "${PIOLA_PYTHON_INSTALL}/piola" COMPONENT python)
-  install(FILES ${PIOLA_IMPORT_FILES} DESTINATION "${PIOLA_PYTHON_INSTALL}/piola_import" COMPONENT python)
+  foreach(package IN LISTS PIOLA_PYTHON_PROGRAMS)
+    install(FILES ${PIOLA_FILES_OF_${package}} DESTINATION "${PIOLA_PYTHON_INSTALL}/${package}" COMPONENT python)
+  endforeach()
 endif()
