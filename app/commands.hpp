@@ -26,6 +26,7 @@ void add_converge(CLI::App& program, Action& action);
 void add_bench(CLI::App& program, Action& action);
 void add_import(CLI::App& program, Action& action);
 void add_identify(CLI::App& program, Action& action);
+void add_test_material(CLI::App& program, Action& action);
 
 /// Adds --instruction-set, and --machine, its name in the previous minor release, which no help shows.
 void add_instruction_set(CLI::App& command, std::string& backend, std::string const& about);

@@ -92,6 +92,7 @@ int run_command(int argc, char** argv) {
   app::add_bench(program, action);
   app::add_import(program, action);
   app::add_identify(program, action);
+  app::add_test_material(program, action);
   try {
     program.parse(argc, argv);
   } catch (CLI::ParseError const& error) {
@@ -104,6 +105,7 @@ int run_command(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   app::secure_streams();
+  app::tell_crashes_of_laws();
   exec_host::set_mmap_threshold();
   app::sleep_while_waiting(argv);
   comm::start();

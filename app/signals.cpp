@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "signals.hpp"
+#include "piola/materials/block_law.hpp"
 #include <chrono>
 #include <csignal>
 #include <cstdint>
+#include <cstring>
 #include <ctime>
 #include <thread>
 #include <unistd.h>
@@ -19,6 +21,16 @@ std::int64_t milliseconds() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
   return std::int64_t{1000} * now.tv_sec + now.tv_nsec / 1'000'000 + 1;
+}
+
+char const* name_of_crash(int signal) {
+  switch (signal) {
+    case SIGSEGV: return "SIGSEGV: access to memory that is not its own";
+    case SIGBUS: return "SIGBUS: access to memory that does not exist";
+    case SIGFPE: return "SIGFPE: division of integers by zero";
+    case SIGILL: return "SIGILL: an instruction that this processor does not have";
+    default: return "SIGABRT";
+  }
 }
 
 extern "C" void on_stop_signal(int signal, siginfo_t* info, void*) {
@@ -39,6 +51,17 @@ extern "C" void on_checkpoint_signal(int signal, siginfo_t*, void*) {
     checkpoint_signal = signal;
   else
     stop_signal.compare_exchange_strong(none, signal);
+}
+
+/// Says that code of a user's library crashed, if it did, and ends the program as the signal does.
+extern "C" void on_crash(int signal, siginfo_t*, void*) {
+  if (char const* const law = running_block_law()) {
+    for (char const* text : {"piola: the law ", law, " crashed in its library (", name_of_crash(signal),
+                             ") - try it with 'piola test-material', or build it with -g -fsanitize=address\n"})
+      if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) break;
+  }
+  std::signal(signal, SIG_DFL);
+  ::raise(signal);
 }
 
 void on(int signal, void (*handler)(int, siginfo_t*, void*)) {
@@ -62,6 +85,10 @@ void catch_stop_signals() {
   on(SIGINT, on_stop_signal);
   on(SIGTERM, on_stop_signal);
   if (!is_ignored(SIGHUP)) on(SIGHUP, on_stop_signal);
+}
+
+void tell_crashes_of_laws() {
+  for (int const signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) on(signal, on_crash);
 }
 
 void ignore_stop_signals() {

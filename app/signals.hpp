@@ -21,6 +21,9 @@ bool wait_unless_stopped(double seconds);
 /// Ignores further stop signals: rank 0 of a run stops the other ranks.
 void ignore_stop_signals();
 
+/// Installs handlers that say so if the program crashes in the code of a user's material law.
+void tell_crashes_of_laws();
+
 /// Installs handlers for SIGUSR1 and SIGUSR2, which otherwise end the program.
 void catch_checkpoint_signals();
 

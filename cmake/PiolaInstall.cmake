@@ -29,6 +29,12 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/cases" DESTINATION "${CMAKE_INSTALL_DAT
         PATTERN "*.py" EXCLUDE PATTERN "make_meshes" EXCLUDE)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/bench/cases/" DESTINATION "${CMAKE_INSTALL_DATADIR}/piola/bench"
         COMPONENT program)
+# What users compile their material laws with.
+install(FILES "${PROJECT_SOURCE_DIR}/src/piola/materials/piola_material.h"
+              "${PROJECT_SOURCE_DIR}/src/piola/materials/piola_strain.h"
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT program)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples/user-materials" DESTINATION "${CMAKE_INSTALL_DATADIR}/piola"
+        COMPONENT program)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/user" "${PROJECT_SOURCE_DIR}/docs/theory"
         DESTINATION "${_doc}/piola" COMPONENT program FILES_MATCHING PATTERN "*.md")
 
@@ -36,7 +42,7 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/user" "${PROJECT_SOURCE_DIR}/docs/
 install(TARGETS piola piola_options EXPORT PiolaTargets
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/src/piola" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT dev
-        FILES_MATCHING PATTERN "*.hpp")
+        FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
 install(EXPORT PiolaTargets NAMESPACE Piola:: DESTINATION "${_config_folder}" COMPONENT dev)
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/PiolaConfig.cmake.in"
   "${PROJECT_BINARY_DIR}/PiolaConfig.cmake" INSTALL_DESTINATION "${_config_folder}")

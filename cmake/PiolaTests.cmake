@@ -22,6 +22,9 @@ if(_sources)
   set_property(SOURCE "${PROJECT_SOURCE_DIR}/tests/support/places.cpp" PROPERTY COMPILE_DEFINITIONS
     PIOLA_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     PIOLA_PROGRAM="$<$<TARGET_EXISTS:piola_app>:$<TARGET_FILE:piola_app>>")
+  # Laws that users compile with the header alone.
+  set_property(SOURCE "${PROJECT_SOURCE_DIR}/tests/support/library_laws.cpp" PROPERTY INCLUDE_DIRECTORIES
+    "${PROJECT_SOURCE_DIR}/src/piola/materials")
   target_link_libraries(piola_tests PRIVATE
     piola piola_warnings piola_host GTest::gtest GTest::gtest_main rapidcheck ${PIOLA_WEBPDEMUX_LIBRARY}
     Piola::hdf5 PNG::PNG nlohmann_json::nlohmann_json)

@@ -6,11 +6,13 @@ it is refused with exit status 2 and a message where the cell says "no".
 Usage: features_test.py            compares with the page
        features_test.py --show     prints what happens, cell by cell
 """
+import atexit
 import concurrent.futures
 import copy
 import hashlib
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -99,6 +101,15 @@ def material(*, without=None, **given):
         made["run"] |= {"end": 1e-4, "max_step": 1e-6}
         return made
     return lambda formulation: (metal(formulation, given), without and metal(formulation, without))
+
+
+def own_law():
+    """A law of the user's: the library of an example, compiled here."""
+    library = Path(tempfile.mkdtemp()) / "voce.so"
+    atexit.register(shutil.rmtree, library.parent)
+    subprocess.run(["cc", "-O2", "-shared", "-fPIC", "-I", ROOT / "src/piola/materials",
+                    ROOT / "examples/user-materials/voce.c", "-o", library, "-lm"], check=True)
+    return {"library": str(library), "density": 7800, "youngs_modulus": 2e11, "poissons_ratio": 0.3}
 
 
 def metal(**given):
@@ -303,6 +314,7 @@ FEATURES = {
     "`mooney_rivlin`": material(law="mooney_rivlin", **STEEL),
     "`saint_venant_kirchhoff`": material(law="saint_venant_kirchhoff", **STEEL),
     "`compressible_neo_hookean`": material(law="compressible_neo_hookean", **STEEL),
+    "`arruda_boyce`": material(law="arruda_boyce", **STEEL, limiting_stretch=2),
     "`elastic`": material(law="elastic", **STEEL),
     "`perfectly_plastic`": material(law="perfectly_plastic", **YIELD),
     "`isotropic_hardening`": material(name="copper_linear_hardening"),
@@ -312,6 +324,8 @@ FEATURES = {
     "`steinberg_guinan`": material(law="steinberg_guinan", **YIELD, strain_factor=36, hardening_exponent=0.45,
                                    pressure_coefficient=2.8e-11),
     "`johnson_holmquist`, glass and ceramics": material(name="soda_lime_glass"),
+    "a law of your own in a library": material(**own_law(), yield_stress=2e8,
+                                             without={**own_law(), "yield_stress": 1e8}),
     "equations of state: `stiffened_gas`": metal(eos="stiffened_gas", adiabatic_exponent=4),
     "equations of state: `mie_grueneisen`": metal(eos="mie_grueneisen", grueneisen_gamma=2, hugoniot_s1=1.5),
     "equations of state: `polynomial`": metal(eos="polynomial", c2=1e12),

@@ -19,7 +19,7 @@ MaterialParameters material_of(std::string const& keys) {
 }
 
 double value_of(MaterialParameters const& material, std::string_view name) {
-  LawInfo const law = laws()[static_cast<std::size_t>(material.law)];
+  LawInfo const law = law_of(material);
   for (std::size_t i = 0; i < law.parameters.size(); ++i)
     if (law.parameters[i].name == name) return material.value[i];
   ADD_FAILURE() << "no parameter " << name;

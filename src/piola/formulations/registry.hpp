@@ -38,7 +38,7 @@ struct FormulationInfo {
   std::string_view about;                  ///< one line, with the paper
   std::span<Parameter const> parameters;   ///< optional numbers; a default of no_default means "set by `scheme`"
   std::span<Choice const> choices;         ///< optional words
-  std::span<std::string_view const> laws;  ///< names of the laws it can use
+  std::span<std::string_view const> laws;  ///< names of the laws it can use, without those of libraries
   std::span<DiagnosticInfo const> diagnostics = {};  ///< all columns of Diagnostics::more
   bool cracks = false;                               ///< whether bodies may have cracks
   bool mirrors = true;                               ///< whether bodies may have mirror planes
@@ -51,6 +51,7 @@ struct FormulationInfo {
   bool surface_supports = false;  ///< whether supports can hold the surface itself, where particles lie inside
   bool minimises = false;         ///< whether it has Formulation::descend()
   bool axisymmetric = false;      ///< whether bodies may be axisymmetric
+  bool block_laws = false;        ///< whether it can use laws of libraries (materials/block_law.hpp)
   bool ranks = true;              ///< whether its bodies may be distributed over ranks
   std::span<FormulaInfo const> formulas = {};  ///< optional formulas
   std::span<RemovedSetting const> removed = {};

@@ -84,7 +84,7 @@ void point_to_kept(Node& node, std::vector<KeptFile> const& list, fs::path const
     if (file != nullptr) text.found_at = place_of_kept(*file, results, text.place, problems).string();
   };
   for (Node::Entry& entry : node.entries) {
-    if (entry.key == "file") point(entry.value);
+    if (entry.key == "file" || entry.key == "library") point(entry.value);
     if (entry.key == "library")
       for (Node& item : entry.value.items) point(item);
     point_to_kept(entry.value, list, results, problems);
@@ -131,7 +131,11 @@ std::vector<CaseFile> files_of(CaseSpec const& spec) {
         all.push_back(file);
   };
   add(spec.library_files);
-  for (BodySpec const& body : spec.bodies) add(body.shape.files);
+  for (BodySpec const& body : spec.bodies) {
+    add(body.shape.files);
+    add(body.law_files);
+    for (PartSpec const& part : body.parts) add(part.law_files);
+  }
   for (RegionSpec const& region : spec.regions) add(region.files);
   return all;
 }

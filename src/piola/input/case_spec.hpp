@@ -56,6 +56,7 @@ struct PartSpec {
   std::optional<std::size_t> region = {};  ///< where `where` is a region with a shape and nothing else: its number
   MaterialParameters material;
   std::string law;
+  std::vector<CaseFile> law_files = {};  ///< the library of a law of the user's
   Places places;
 };
 
@@ -65,7 +66,8 @@ struct BodySpec {
   ShapeSpec shape;
   MaterialParameters material;
   std::string law;
-  std::vector<PartSpec> parts;  ///< of other materials; the first that holds a particle counts
+  std::vector<CaseFile> law_files = {};  ///< the library of a law of the user's
+  std::vector<PartSpec> parts;           ///< of other materials; the first that holds a particle counts
   FormulationSpec formulation;
   std::array<Expression, 3> initial_velocity;                             ///< m/s
   std::optional<std::array<Expression, 3>> initial_displacement;          ///< m

@@ -87,7 +87,10 @@ constexpr std::array body_keys{
     KeyInfo{"body.material", "law", text, "", any_value, "that of `name`",
             "name of the law; its words and parameters are further keys"},
     KeyInfo{"body.material", "name", text, "", any_value, "none",
-            "a material of the library; further keys change its parameters"},
+            "a material of the library; further keys change its parameters. With `library`: which of its laws"},
+    KeyInfo{"body.material", "library", text, "", any_value, "none",
+            "path from the case file to a shared library with a law of your own; density and its parameters are "
+            "further keys"},
     KeyInfo{"body.formulation", "name", text, "", any_value, "",
             "name of the formulation; its settings are further keys"},
 };

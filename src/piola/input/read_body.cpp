@@ -97,13 +97,15 @@ std::optional<std::array<Expression, 9>> read_gradient(Section const& section, B
 void check_law(Section const& section, BodySpec const& body) {
   auto const formulation = find_formulation(body.formulation.name);
   if (!formulation || body.law.empty()) return;
-  auto const is_usable = [&](std::span<std::string_view const> laws) {
-    return std::find(laws.begin(), laws.end(), std::string_view(body.law)) != laws.end();
+  bool const of_library = !body.law_files.empty();
+  auto const is_usable = [&](FormulationInfo const& info) {
+    auto const& laws = info.laws;
+    return of_library ? info.block_laws : std::find(laws.begin(), laws.end(), std::string_view(body.law)) != laws.end();
   };
-  if (is_usable(formulation->laws)) return;
+  if (is_usable(*formulation)) return;
   std::vector<std::string_view> able;
   for (FormulationInfo const& other : formulations())
-    if (is_usable(other.laws)) able.push_back(other.name);
+    if (is_usable(other)) able.push_back(other.name);
   section.problems().add(section.place_of("material"),
                          "the formulation " + in_quotes(body.formulation.name) + " cannot use the law " +
                              in_quotes(body.law) + " (allowed: " + joined(formulation->laws) +

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
+#include "piola/input/case_files.hpp"
+#include "piola/input/law_settings.hpp"
 #include "piola/input/sections.hpp"
+#include "piola/materials/block_law.hpp"
+#include "piola/materials/law_library.hpp"
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -44,10 +48,12 @@ class MaterialReader {
   }
 
   MaterialParameters read() {
+    std::size_t const before = section_.problems().count();
     for (std::size_t i = 0; i < law_.choices.size(); ++i) read_choice(i);
     for (std::size_t i = 0; i < law_.parameters.size(); ++i) read_value(i);
     section_.refuse_unknown(keys_);
     check_spall();
+    if (law_.block != nullptr && section_.problems().count() == before) check_as_a_whole();
     return material_;
   }
 
@@ -85,6 +91,13 @@ class MaterialReader {
   std::string example_of(Parameter const& parameter) const {
     std::string const number = parameter.unit == "1" ? "..." : "\"... " + std::string(parameter.unit) + "\"";
     return in_library_ ? "{ value = " + number + ", source = \"...\", checked = \"read\" }" : number;
+  }
+
+  void check_as_a_whole() {
+    std::string const problem = problem_of_block_law(material_);
+    if (problem.empty()) return;
+    section_.problems().add(section_.place(), fmt::format("{}: the law {} refuses its parameters: {} - change them",
+                                                          section_.name(), law_.name, problem));
   }
 
   /// Failure by spall needs a stress at which it comes.
@@ -144,6 +157,32 @@ std::optional<std::string> law_name(Section const& section, CaseLibrary const& o
   return std::nullopt;
 }
 
+/// The law of a library of the user's: the one of the key `name`, or the only one.
+std::optional<LawInfo> law_of_library(Section const& section, Value const& library, BodySpec& body) {
+  section.refuse("law", "is that of the library when \"library\" is given");
+  if (!read_text(library, section.problems())) return std::nullopt;
+  CaseFile const file = case_file(library.node);
+  body.law_files = {file};
+  std::vector<LawInfo> laws;
+  try {
+    laws = load_laws(file.path);
+  } catch (LawLibraryError const& error) {
+    section.problems().add(library.node.place, library.name + ": " + error.what());
+    return std::nullopt;
+  }
+  std::vector<std::string> names;
+  for (LawInfo const& law : laws) names.emplace_back(law.block->name);
+  auto const name = section.find("name");
+  if (!name && laws.size() == 1) return laws[0];
+  if (!name) {
+    section.report_missing("name", "which law of the library: " + joined(names), "name = " + in_quotes(names[0]));
+    return std::nullopt;
+  }
+  auto const word = read_word(*name, names, section.problems());
+  if (!word) return std::nullopt;
+  return laws[static_cast<std::size_t>(std::find(names.begin(), names.end(), *word) - names.begin())];
+}
+
 /// Reports settings of earlier versions. Returns their keys.
 std::vector<std::string> refuse_removed(Section const& section, std::span<RemovedSetting const> removed) {
   std::vector<std::string> keys;
@@ -173,14 +212,34 @@ MaterialParameters read_law_values(Section const& section, LawInfo const& law, s
 
 void read_material(Section const& section, CaseLibrary const& library, BodySpec& body) {
   LibraryMaterial const* base = nullptr;
-  auto const name = law_name(section, library, base);
-  if (!name) return;
-  body.law = *name;
-  body.material = MaterialReader(section, *find_law(*name), base).read();
+  std::optional<LawInfo> law;
+  if (auto const own = section.find("library"))
+    law = law_of_library(section, *own, body);
+  else if (auto const name = law_name(section, library, base))
+    law = find_law(*name);
+  if (!law) return;
+  body.law = law->name;
+  body.material = MaterialReader(section, *law, base).read();
   if (base == nullptr) return;
   for (LibraryNumber const& number : base->numbers)
     if (number.place.line > 0 && !section.has(number.parameter))
       body.places["material." + number.parameter] = number.place;
+}
+
+MaterialParameters read_library_material(std::string const& library, std::string const& law,
+                                         std::span<std::string const> settings) {
+  Problems problems;
+  std::vector<std::string> all(settings.begin(), settings.end());
+  all.insert(all.begin(), "library=" + in_quotes(library));
+  if (!law.empty()) all.push_back("name=" + in_quotes(law));
+  Document document;
+  document.root.place.file = "command line";  // paths start from the present folder
+  apply_overrides(document, all, problems);
+  problems.raise_if_any();
+  BodySpec body;
+  read_material(Section(document.root, "body.material", problems), {}, body);
+  problems.raise_if_any();
+  return body.material;
 }
 
 void read_formulation_formulas(Section const& section, std::span<FormulaInfo const> formulas, Names const& names,

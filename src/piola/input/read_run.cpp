@@ -6,6 +6,7 @@
 #include "piola/input/output_keys.hpp"
 #include "piola/input/run_keys.hpp"
 #include "piola/input/sections.hpp"
+#include "piola/materials/block_law.hpp"
 #include <limits>
 #include <span>
 
@@ -68,14 +69,27 @@ void read_guards(Section const& run, GuardLimits& limits) {
   section->refuse_unknown();
 }
 
-void read_frames(Section const& section, OutputSpec& output) {
+/// Names of the values that laws on blocks of points keep.
+void add_history_names(std::span<BodySpec const> bodies, std::vector<std::string>& names) {
+  auto const add = [&](MaterialParameters const& material) {
+    piola_material const* const law = law_of(material).block;
+    for (int h = 0; law != nullptr && h < law->history_count; ++h) names.emplace_back(law->history[h].name);
+  };
+  for (BodySpec const& body : bodies) {
+    add(body.material);
+    for (PartSpec const& part : body.parts) add(part.material);
+  }
+}
+
+void read_frames(Section const& section, std::span<BodySpec const> bodies, OutputSpec& output) {
   read_members(section, output_keys(), output);
+  auto known = known_fields();
+  add_history_names(bodies, known);
   if (auto const fields = section.find("fields")) {
     auto const items = read_list(*fields, 1, 1000, section.problems());
     if (items) {
       for (Value const& item : *items) {
-        if (auto const field = read_word(item, known_fields(), section.problems()))
-          output.frame_fields.push_back(*field);
+        if (auto const field = read_word(item, known, section.problems())) output.frame_fields.push_back(*field);
       }
     }
   }
@@ -109,7 +123,7 @@ void read_run(Section const& section, RunSpec& run) {
 }
 
 void read_output(Section const& section, OutputSpec& output, std::span<BodySpec const> bodies) {
-  if (auto const frames = section.table("frames")) read_frames(*frames, output);
+  if (auto const frames = section.table("frames")) read_frames(*frames, bodies, output);
   if (auto const history = section.table("history")) {
     read_members(*history, output_keys(), output);
     history->refuse_unknown();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/materials/block_law.hpp"
 #include "piola/materials/hypoelastic_solid.hpp"
 #include "piola/materials/laws.hpp"
 #include "piola/materials/plastic/isotropic_hardening.hpp"
@@ -115,11 +116,13 @@ inline bool fails(MaterialParameters const& material) {
   return any;
 }
 
-/// Calls f(law) with the law of `material`, hyperelastic or a solid in rate form: for their common members.
+/// Calls f(law) with the law of `material`, hyperelastic, a solid in rate form or of a library: for their common
+/// members.
 template <class F>
 void with_any_law(MaterialParameters const& material, F const& f) {
   with_law(material, f);
   with_solid(material, f);
+  with_block_law(material, f);
 }
 
 }  // namespace piola::inline PIOLA_BACKEND

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/materials/registry.hpp"
 #include "piola/base/contracts.hpp"
+#include "piola/materials/block/own_laws.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
 #include <algorithm>
 #include <array>
@@ -30,21 +31,58 @@ constexpr auto table(LawList<Law...>, StrengthList<Strength...>) {
                             .index = index++}...};
 }
 
-constexpr auto all = table(Laws{}, Strengths{});
+/// The laws of Piola: hyperelastic ones, solids in rate form, then those that work on blocks of points.
+std::vector<LawInfo> const& own_laws() {
+  static std::vector<LawInfo> const all = [] {
+    auto const templates = table(Laws{}, Strengths{});
+    std::vector<LawInfo> list(templates.begin(), templates.end());
+    for (LawInfo const* const law : block_laws::own_laws()) {
+      list.push_back(*law);
+      list.back().index = static_cast<int>(list.size()) - 1;
+    }
+    return list;
+  }();
+  return all;
+}
+
+/// Laws of libraries, whose indices follow those of Piola's laws.
+struct AddedLaws {
+  static constexpr std::size_t most = 64;
+  std::array<LawInfo, most> laws{};
+  std::size_t count = 0;
+};
+
+AddedLaws& added_laws() {
+  static AddedLaws added;
+  return added;
+}
 
 }  // namespace
 
-std::span<LawInfo const> laws() { return all; }
+std::span<LawInfo const> laws() { return own_laws(); }
+
+std::optional<LawInfo> add_law(LawInfo law) {
+  AddedLaws& added = added_laws();
+  if (added.count == AddedLaws::most) return std::nullopt;
+  law.index = static_cast<int>(own_laws().size() + added.count);
+  return added.laws[added.count++] = law;
+}
+
+LawInfo const& law_of(MaterialParameters const& material) {
+  auto const index = static_cast<std::size_t>(material.law);
+  PIOLA_EXPECTS(index < own_laws().size() + added_laws().count);
+  return index < own_laws().size() ? own_laws()[index] : added_laws().laws[index - own_laws().size()];
+}
 
 std::vector<std::string_view> laws_that(bool (*able)(LawInfo const&)) {
   std::vector<std::string_view> names;
-  for (LawInfo const& law : all)
+  for (LawInfo const& law : own_laws())
     if (able(law)) names.push_back(law.name);
   return names;
 }
 
 std::optional<LawInfo> find_law(std::string_view name) {
-  for (auto const& law : all)
+  for (LawInfo const& law : own_laws())
     if (law.name == name) return law;
   return std::nullopt;
 }

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+struct piola_material;
+
 namespace piola {
 
 /// Description of a law for the case reader, `piola describe` and the manual.
@@ -20,7 +22,10 @@ struct LawInfo {
   bool elastic_rate = false;      ///< a hyperelastic law that also gives its stress rate (RateForm in laws.hpp)
   bool brittle = false;           ///< a solid whose damage is part of its strength
   std::span<Choice const> choices = {};
-  int index = 0;  ///< index in the registry, for MaterialParameters::law
+  piola_material const* block = nullptr;  ///< a law that works on blocks of points (block_law.hpp); density, then its
+                                          ///< own parameters
+  std::string_view library{};             ///< file of a law of the user's; empty: the law is Piola's
+  int index = 0;                          ///< index in the registry, for MaterialParameters::law
 };
 
 /// A law with the values of its parameters: plain data, independent of the instruction set.
@@ -31,7 +36,13 @@ struct MaterialParameters {
   int word[max_words]{};       ///< in the order of LawInfo::choices: which of the allowed words
 };
 
+/// The laws of Piola.
 std::span<LawInfo const> laws();
+/// Adds a law of a library, whose texts must stay, and returns it with its index; nullopt: there are too many. Not for
+/// several threads at a time.
+std::optional<LawInfo> add_law(LawInfo law);
+/// The law of a material, also one of a library.
+LawInfo const& law_of(MaterialParameters const& material);
 /// Names of the laws for which `able` holds, in the order of the registry.
 std::vector<std::string_view> laws_that(bool (*able)(LawInfo const&));
 std::optional<LawInfo> find_law(std::string_view name);

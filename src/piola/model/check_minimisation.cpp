@@ -9,6 +9,12 @@
 namespace piola {
 namespace {
 
+bool lacks_potential(MaterialParameters const& material) {
+  bool history = is_hypoelastic(material);
+  with_block_law(material, [&](BlockLaw const& law) { history = !law.elastic(); });
+  return history;
+}
+
 /// Whether the formulation can minimise, and the materials have one potential energy.
 void check_body(BodySpec const& body, Problems& problems) {
   auto const info = find_formulation(body.formulation.name);
@@ -16,12 +22,13 @@ void check_body(BodySpec const& body, Problems& problems) {
     problems.add(place_of(body.places, "formulation"),
                  "run.relax_method is \"conjugate_gradients\", which the formulation " + in_quotes(info->name) +
                      " does not have (allowed: nodal) - take nodal, or relax_method = \"kinetic_damping\"");
-  bool solid = is_hypoelastic(body.material);
-  for (PartSpec const& part : body.parts) solid = solid || is_hypoelastic(part.material);
-  if (solid)
+  bool without = lacks_potential(body.material);
+  for (PartSpec const& part : body.parts) without = without || lacks_potential(part.material);
+  if (without)
     problems.add(place_of(body.places, "material"),
-                 "run.relax_method is \"conjugate_gradients\", which needs a potential energy, and a solid in rate "
-                 "form has none (allowed: hyperelastic laws) - take relax_method = \"kinetic_damping\"");
+                 "run.relax_method is \"conjugate_gradients\", which needs a potential energy; solids in rate form "
+                 "and laws of libraries with a history have none (allowed: hyperelastic laws) - take relax_method = "
+                 "\"kinetic_damping\"");
 }
 
 }  // namespace

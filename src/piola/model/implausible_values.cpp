@@ -90,7 +90,7 @@ void check_waves(MaterialLooked const& of, Problems& slips) {
 
 void check_materials(BodySpec const& spec, BodyProperties const& body, Problems& slips) {
   auto const check = [&](MaterialParameters const& material, Places const& places, std::string const& subject) {
-    MaterialLooked const of{material, laws()[static_cast<std::size_t>(material.law)], places, subject};
+    MaterialLooked const of{material, law_of(material), places, subject};
     if (!check_material(of, slips)) check_waves(of, slips);
   };
   check(spec.material, spec.places, body_words(body));

@@ -109,7 +109,7 @@ Support support_of(SupportSpec const& spec, CaseSpec const& from, ParticleSet co
 }
 
 double density_of(MaterialParameters const& material) {
-  LawInfo const law = laws()[static_cast<std::size_t>(material.law)];
+  LawInfo const law = law_of(material);
   auto const density = std::find_if(law.parameters.begin(), law.parameters.end(),
                                     [](Parameter const& p) { return p.name == "density"; });
   return density == law.parameters.end() ? 0 : material.value[density - law.parameters.begin()];

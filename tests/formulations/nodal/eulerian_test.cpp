@@ -13,7 +13,7 @@ constexpr double density = 2700, size = 0.01;
 
 MaterialParameters metal() {
   MaterialParameters m = material("perfectly_plastic", density, 69e9, 0.33);
-  auto const& parameters = laws()[static_cast<std::size_t>(m.law)].parameters;
+  auto const& parameters = law_of(m).parameters;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     if (parameters[k].name == "yield_stress") m.value[k] = 0.3e9;
     if (parameters[k].name == "specific_heat") m.value[k] = 900;

@@ -12,7 +12,7 @@ namespace {
 using test::expect_words;
 
 void set(MaterialParameters& m, std::string_view name, double value) {
-  auto const& parameters = laws()[static_cast<std::size_t>(m.law)].parameters;
+  auto const& parameters = law_of(m).parameters;
   auto const at = std::find_if(parameters.begin(), parameters.end(), [&](auto const& p) { return p.name == name; });
   ASSERT_NE(at, parameters.end()) << name;
   m.value[at - parameters.begin()] = value;

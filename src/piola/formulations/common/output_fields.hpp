@@ -30,6 +30,7 @@ struct ParticleOutput {
   double contact_pressure = 0;         ///< [Pa]
   double contact_gap = 0, slip = 0;    ///< [m]
   double friction_heat = 0;            ///< [J/m2]
+  double law_value = 0;                ///< value that the law of a library keeps and that is asked for
 };
 
 /// A field of frames, probes and pictures.

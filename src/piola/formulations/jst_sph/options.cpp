@@ -12,7 +12,7 @@ namespace {
 
 /// Hyperelastic laws.
 std::span<std::string_view const> usable_laws() {
-  static auto const usable = laws_that([](LawInfo const& law) { return !law.hypoelastic; });
+  static auto const usable = laws_that([](LawInfo const& law) { return !law.hypoelastic && law.block == nullptr; });
   return usable;
 }
 

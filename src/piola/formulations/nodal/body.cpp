@@ -76,6 +76,7 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
       state_(&fields_, set.dimension,
              {.viscosity = options.viscous,
               .solids = options.solids,
+              .block_history = options.block_history,
               .failure = options.failure,
               .converts = options.converts,
               .offset = !assembly.initial_deformation_gradient.empty(),
@@ -188,6 +189,7 @@ int NodalBody::step(Backend const& backend, double time, double dt, int halvings
   boundary_->begin_step(state_, time, dt);
   int const most = on_crushed_ ? most_halvings_of_failure : most_halvings;
   state_.constants.least_share = halvings < most ? least_share : 0;
+  state_.time = time + dt;
   backend.step(state_, dt);
   if (state_.has.axisymmetric) record_behind_axis();
   agree_on_step(backend.largest_change(state_));

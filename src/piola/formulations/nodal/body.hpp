@@ -104,6 +104,7 @@ class NodalBody {
   /// At the centroid of the cell; missing directions: mean over its points. I for Eulerian cells.
   Mat<3> F(Index slot) const;
   MaterialRange const& material(Index slot) const { return materials_.of(slot); }
+  std::span<MaterialRange const> materials() const { return materials_.ranges(); }
   double mass(Index slot) const { return reference_.own_fraction(slot) * value(state_.mass, slot); }
   /// Mass of any particle [kg]. On all ranks if surface contact acts on the body, or its cells may fail.
   double replicated_mass(Index slot) const { return reference_.mass[static_cast<std::size_t>(slot)]; }

@@ -49,6 +49,7 @@ BodyMaterials::BodyMaterials(std::vector<MaterialParameters> const& materials, P
                                 0};
       ranges_.push_back({materials[k], constants, first, last});
     });
+    with_block_law(materials[k], [&](BlockLaw const& law) { ranges_.back().block = &block_laws_.emplace_back(law); });
     if (options.failure)
       with_solid(materials[k], [&](auto const& law) {
         double const band = width_of_crack(body, set.dimension);

@@ -2,7 +2,9 @@
 #pragma once
 #include "piola/formulations/nodal/options.hpp"
 #include "piola/formulations/nodal/state.hpp"
+#include "piola/materials/block_law.hpp"
 #include "piola/particles/ordering.hpp"
+#include <list>
 #include <string>
 #include <vector>
 
@@ -26,11 +28,13 @@ class BodyMaterials {
   /// Reference densities [kg/m^3].
   std::vector<double> densities() const;
   MaterialRange const& of(Index slot) const;
+  std::vector<MaterialRange> const& ranges() const { return ranges_; }
 
  private:
   std::string name_;         ///< of the body
   double mean_spacing_ = 1;  ///< [m]
   std::vector<MaterialRange> ranges_;
+  std::list<BlockLaw> block_laws_;  ///< of ranges
 };
 
 }  // namespace piola::nodal

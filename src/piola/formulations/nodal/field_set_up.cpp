@@ -11,12 +11,19 @@ void copy_at(LazyZeroArray<double> const& from, FieldRef const& to, int componen
     value_at(to, i, static_cast<int>(c)) = from[static_cast<std::size_t>(i) * size + c];
 }
 
+namespace {
+
+/// F = I at a point whose gradient is stored from `at` on.
+void put_unit_gradient(FieldRef const& history, Index i, int at, int D) {
+  for (int c = 0; c < D * D; ++c) value_at(history, i, at + c) = c % (D + 1) == 0 ? 1 : 0;
+  if (D == 2) value_at(history, i, at + 4) = 1;
+}
+
+}  // namespace
+
 void put_reference_shape(FieldRef const& history, Index i, int D) {
-  for (int q = 0; q < Fields::points(D); ++q) {
-    int const at = HistoryLayout::point(q, D) + HistoryLayout::F;
-    for (int c = 0; c < D * D; ++c) value_at(history, i, at + c) = c % (D + 1) == 0 ? 1 : 0;
-    if (D == 2) value_at(history, i, at + 4) = 1;
-  }
+  for (int q = 0; q < Fields::points(D); ++q)
+    put_unit_gradient(history, i, HistoryLayout::point(q, D) + HistoryLayout::F, D);
 }
 
 void FieldSetUp::fill_reference() {
@@ -77,7 +84,8 @@ void FieldSetUp::fill_initial() {
 
 void FieldSetUp::fill_histories() {
   int const D = s_.dimension;
-  for (MaterialRange const& range : std::span(s_.materials, static_cast<std::size_t>(s_.material_count)))
+  for (MaterialRange const& range : std::span(s_.materials, static_cast<std::size_t>(s_.material_count))) {
+    if (range.block != nullptr && !range.block->elastic()) fill_block_history(range);
     with_solid(range.material, [&](auto const& law) {
       for (Index i = std::max(range.first, body_.own().first); i < std::min(range.last, body_.own().last); ++i) {
         for (int q = 0; q < Fields::points(D); ++q)
@@ -90,6 +98,24 @@ void FieldSetUp::fill_histories() {
         put(FailureLayout::toughness, law.scatter.factor(id, body_.set().volume[id]));
       }
     });
+  }
+}
+
+void FieldSetUp::fill_block_history(MaterialRange const& range) {
+  using At = BlockLawLayout;
+  int const D = s_.dimension, count = range.block->history_count();
+  std::vector<double> start(static_cast<std::size_t>(count));
+  range.block->start(start.data());
+  double const c = range.block->p_wave_speed();
+  for (Index i = std::max(range.first, body_.own().first); i < std::min(range.last, body_.own().last); ++i) {
+    value_at(s_.history, i, At::modulus) = range.block->rho0 * c * c;
+    for (int q = 0; q < Fields::points(D); ++q) {
+      int const at = At::point(q, D, count);
+      put_unit_gradient(s_.history, i, at + At::F, D);
+      for (int h = 0; h < count; ++h)
+        value_at(s_.history, i, at + At::history(D) + h) = start[static_cast<std::size_t>(h)];
+    }
+  }
 }
 
 void FieldSetUp::fill_offset(Backend const& backend) {

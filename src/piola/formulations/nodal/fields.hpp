@@ -41,6 +41,21 @@ struct HistoryLayout {
   static constexpr int point(int q, int D) { return of_cell + q * (F + D * D + (D == 2 ? 1 : 0)); }
 };
 
+/// Layout of the field `history` of laws of libraries that have a history, at the end of the last step. `count`: values
+/// of a point that the law keeps.
+struct BlockLawLayout {
+  /// Values of the cell: specific internal energy [J/kg]; modulus of pressure waves [Pa].
+  enum : int { energy, modulus, of_cell };
+  /// Values of a point, relative to point(q, D, count).
+  enum : int {
+    stress,      ///< of the law in its measure [Pa], up to 9 values
+    spread = 9,  ///< tension over that of the cell [Pa]
+    F            ///< as in HistoryLayout; then those of the law
+  };
+  static constexpr int history(int D) { return F + D * D + (D == 2 ? 1 : 0); }
+  static constexpr int point(int q, int D, int count) { return of_cell + q * (history(D) + count); }
+};
+
 /// Values of a cell that may fail, after its points in the field `history`, relative to Fields::solid_values(D).
 struct FailureLayout {
   enum : int {
@@ -80,10 +95,11 @@ constexpr CellCondition condition_of(double value) {
 /// Conditions under which a body has fields beyond those of the elastic motion.
 struct FieldNeeds {
   bool viscosity = false;
-  bool solids = false;    ///< some cell has a solid in rate form
-  bool failure = false;   ///< cells may fail
-  bool converts = false;  ///< cells that fail become Eulerian
-  bool offset = false;    ///< F starts from given values
+  bool solids = false;     ///< some cell has a solid in rate form
+  int block_history = -1;  ///< most values that a law of a library keeps at a point; -1: none has a history
+  bool failure = false;    ///< cells may fail
+  bool converts = false;   ///< cells that fail become Eulerian
+  bool offset = false;     ///< F starts from given values
   bool implicit_pressure = false;
   bool axisymmetric = false;
 };
@@ -100,7 +116,10 @@ struct Fields {
   static constexpr int solid_values(int D) { return HistoryLayout::point(points(D), D); }
   /// Position in `history` of a value of FailureLayout.
   static constexpr int failure_value(int of, int D) { return solid_values(D) + of; }
-  int history_values() const { return solid_values(dimension) + (has.failure ? int{FailureLayout::size} : 0); }
+  int history_values() const {
+    if (has.block_history >= 0) return BlockLawLayout::point(points(dimension), dimension, has.block_history);
+    return solid_values(dimension) + (has.failure ? int{FailureLayout::size} : 0);
+  }
   /// Condition of fields whose memory, if any, is that of NeighbourRecords.
   static constexpr bool in_records = false;
 
@@ -132,7 +151,7 @@ struct Fields {
   ListedRef a{owner, "Acceleration", "m/s2", dimension, Role::evolved};
   ListedRef C_measured{owner, "MeasuredStretch", "1", second(dimension), Role::evolved};
   ListedRef change{owner, "Change", "1", 2, Role::evolved};
-  ListedRef history{owner, "SolidHistory", "1", history_values(), Role::evolved, has.solids};
+  ListedRef history{owner, "SolidHistory", "1", history_values(), Role::evolved, has.solids || has.block_history >= 0};
   ListedRef viscous{owner, "ViscousHistory", "1", viscous_values(dimension), Role::evolved, has.viscosity};
 
   // Implicit pressure, in the last step and in the one before: pressure of the bulk modulus, tension positive;
@@ -157,7 +176,8 @@ struct Fields {
                  Role::derived, has.implicit_pressure};
   ListedRef ratio{owner, "CellVolumeRatio", "1", 1, Role::derived, has.implicit_pressure};
   ListedRef mean_v{owner, "MeanVelocity", "m/s", dimension, Role::derived, has.implicit_pressure};
-  ListedRef history_kept{owner, "SolidHistoryAtStepStart", "1", history_values(), Role::derived, has.solids};
+  ListedRef history_kept{owner,         "SolidHistoryAtStepStart",           "1", history_values(),
+                         Role::derived, has.solids || has.block_history >= 0};
   ListedRef viscous_kept{owner,        "ViscousHistoryAtStepStart", "1", viscous_values(dimension), Role::derived,
                          has.viscosity};
 };

@@ -28,17 +28,14 @@ Mat<3> first_piola(NodalBody const& body, Index i) {
 double cell_pressure(NodalBody const& body, Index i) {
   if (is_hypoelastic(body.material(i).material))
     return -NodalBody::value(body.state().history, i, HistoryLayout::pressure);
-  double p = 0;
+  double modulus = 0;
   with_law(body.material(i).material, [&](auto const& law) {
-    if (std::decay_t<decltype(law)>::volumetric_split && !body.state().constants.stress_free) {
-      p = law.kappa * (cell(body, i, mean_J) - 1);
-    } else {
-      Mat<3> const F = body.F(i);
-      SymMat<3> const s = cauchy_stress(first_piola(body, i), F, determinant(F));
-      p = (s.c[0] + s.c[1] + s.c[2]) / 3;
-    }
+    if (std::decay_t<decltype(law)>::volumetric_split && !body.state().constants.stress_free) modulus = law.kappa;
   });
-  return p;
+  if (modulus > 0) return modulus * (cell(body, i, mean_J) - 1);
+  Mat<3> const F = body.F(i);
+  SymMat<3> const s = cauchy_stress(first_piola(body, i), F, determinant(F));
+  return (s.c[0] + s.c[1] + s.c[2]) / 3;
 }
 
 /// Per slot, of the particles of this rank.
@@ -159,11 +156,44 @@ std::vector<FieldInfo> output_field_names(bool solids, bool converts) {
   return field_infos(std::span(offered).first(converts ? offered.size() : solids ? of_solids : of_every_law));
 }
 
+void add_fields_of_laws(NodalBody const& body, std::vector<FieldInfo>& fields) {
+  for (MaterialRange const& range : body.materials())
+    for (int h = 0; range.block != nullptr && h < range.block->history_count(); ++h) {
+      piola_history const& value = range.block->description().history[h];
+      if (std::none_of(fields.begin(), fields.end(), [&](FieldInfo const& f) { return f.name == value.name; }))
+        fields.push_back({value.name, value.unit, 1});
+    }
+}
+
 namespace {
+
+/// Mean over the points of a cell of a value that the law of a library keeps; 0 if it keeps none of this name.
+double law_value(NodalBody const& body, Index i, std::string_view name) {
+  BlockLaw const* const law = body.material(i).block;
+  int const h = law == nullptr ? -1 : law->history_index(name);
+  if (h < 0) return 0;
+  using At = BlockLawLayout;
+  int const D = body.state().dimension, points = Fields::points(D);
+  double sum = 0;
+  for (int q = 0; q < points; ++q)
+    sum += NodalBody::value(body.state().history, i, At::point(q, D, law->history_count()) + At::history(D) + h);
+  return sum / points;
+}
+
+/// The field of this name: a value that the law of a library keeps, else one that the formulation offers. A body whose
+/// laws have no such value shows zero.
+OutputField field_of(NodalBody const& body, std::string_view name) {
+  bool kept = std::find(offered.begin(), offered.end(), name) == offered.end();
+  for (MaterialRange const& range : body.materials())
+    kept = kept || (range.block != nullptr && range.block->history_index(name) >= 0);
+  if (!kept) return find_output_field(name, offered);
+  return {"", name, "", 1, [](ParticleOutput const& p, double* out) { *out = p.law_value; }};
+}
 
 /// f(slot, particle) of the particles of this rank.
 template <class F>
-void observe_each(NodalBody const& body, int body_number, LazyZeroArray<double> const& smooth, F const& f) {
+void observe_each(NodalBody const& body, int body_number, std::string_view field, LazyZeroArray<double> const& smooth,
+                  F const& f) {
   for (Index i = body.own().first; i < body.own().last; ++i) {
     ParticleOutput p;
     p.id = static_cast<double>(body.id(i));
@@ -184,6 +214,7 @@ void observe_each(NodalBody const& body, int body_number, LazyZeroArray<double> 
     p.density = p.inertia / p.J;
     p.kernel_type = body.is_eulerian(i) ? 1 : 0;
     if (is_hypoelastic(body.material(i).material)) add_history(body, i, p);
+    p.law_value = law_value(body, i, field);
     f(i, p);
   }
 }
@@ -197,15 +228,15 @@ LazyZeroArray<double> smooth_pressure(NodalBody const& body, std::string_view fi
 
 void sample_on_root(NodalBody const& body, int body_number, std::string_view field, std::span<double> values) {
   PIOLA_EXPECTS(body_number >= 0);
-  OutputField const& found = find_output_field(field, offered);
   LazyZeroArray<double> const smooth = smooth_pressure(body, field);
-  gather_field_on_root(body, found, values, [&](auto const& f) { observe_each(body, body_number, smooth, f); });
+  gather_field_on_root(body, field_of(body, field), values,
+                       [&](auto const& f) { observe_each(body, body_number, field, smooth, f); });
 }
 
 void sample_local_slots(NodalBody const& body, int body_number, std::string_view field, std::span<double> values) {
   LazyZeroArray<double> const smooth = smooth_pressure(body, field);
-  piola::sample_local_slots(body, find_output_field(field, offered), values,
-                            [&](auto const& f) { observe_each(body, body_number, smooth, f); });
+  piola::sample_local_slots(body, field_of(body, field), values,
+                            [&](auto const& f) { observe_each(body, body_number, field, smooth, f); });
 }
 
 double NodalBody::kinetic_energy() const {

@@ -26,6 +26,8 @@ Diagnostics finish(NodalDiagnosticsSum sum);
 /// The fields of nodal bodies for frames and probes; `solids`: with those of solids in rate form; `converts`: and of
 /// cells that become Eulerian.
 std::vector<FieldInfo> output_field_names(bool solids, bool converts);
+/// Adds the values that laws of libraries keep at the points of a body.
+void add_fields_of_laws(NodalBody const& body, std::vector<FieldInfo>& fields);
 
 /// Gathers one field of one body on root, values[id * components + c]. Collective if the body is distributed. Throws
 /// std::invalid_argument for an unknown field.

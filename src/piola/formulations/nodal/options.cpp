@@ -88,6 +88,7 @@ FormulationInfo info() {
   info.surface_supports = true;
   info.minimises = true;
   info.axisymmetric = true;
+  info.block_laws = true;
   info.outline = true;  // cells end at the surface, and mirror planes are there
   return info;
 }
@@ -105,7 +106,42 @@ void check_solid(MaterialParameters const& material, bool stress_free, Problems&
                  fmt::format("formulation: assumption is for hyperelastic laws here, and {} is a solid in rate form "
                              "(allowed: as_dimension, plane_strain, uniaxial_strain) - leave it out, or take the "
                              "formulation adaptle",
-                             laws()[static_cast<std::size_t>(material.law)].name));
+                             law_of(material).name));
+}
+
+/// Rejects what laws of libraries do not support.
+void check_block_law(MaterialParameters const& material, bool stress_free, bool solids, Problems& problems) {
+  LawInfo const& law = law_of(material);
+  if (stress_free)
+    problems.add({}, fmt::format("formulation: assumption is for Piola's hyperelastic laws, and {} is one of a library "
+                                 "(allowed: as_dimension, plane_strain, uniaxial_strain) - leave it out",
+                                 law.name));
+  if (solids)
+    problems.add({},
+                 fmt::format("material: {} of a library and a solid in rate form cannot be one body (allowed: parts "
+                             "with hyperelastic laws or laws of libraries) - make the parts bodies and tie them",
+                             law.name));
+}
+
+/// Rejects materials that cannot be in one body.
+void check_parts(std::vector<MaterialParameters> const& materials, bool stress_free, bool solids, bool hyperelastic,
+                 Problems& problems) {
+  for (MaterialParameters const& material : materials)
+    if (is_block_law(material)) check_block_law(material, stress_free, solids, problems);
+  if (hyperelastic && std::any_of(materials.begin(), materials.end(), &fails))
+    problems.add({},
+                 "material: a part that fails and a hyperelastic one cannot be one body (allowed: solids in rate form, "
+                 "such as elastic) - take elastic for the hyperelastic part, or make the parts bodies and tie them");
+}
+
+/// Most values that one of the laws of libraries keeps at a point; -1: none has a history.
+int most_block_history(std::vector<MaterialParameters> const& materials) {
+  int most = -1;
+  for (MaterialParameters const& material : materials)
+    with_block_law(material, [&](BlockLaw const& law) {
+      if (!law.elastic()) most = std::max(most, law.history_count());
+    });
+  return most;
 }
 
 /// Rejects numbers of a failure that do not belong together.
@@ -145,9 +181,9 @@ void check_implicit(FormulationSpec const& spec, std::vector<MaterialParameters>
                     bool stress_free, Problems& problems) {
   bool split = true;
   for (MaterialParameters const& material : materials) {
-    auto const& law = laws()[static_cast<std::size_t>(material.law)];
+    auto const& law = law_of(material);
     split = split && !is_hypoelastic(material) && law.volumetric_split &&
-            law.small_strain == laws()[static_cast<std::size_t>(materials[0].law)].small_strain;
+            law.small_strain == law_of(materials[0]).small_strain;
   }
   bool const viscous = number_of(spec, "fluctuation_viscosity", 0) > 0 || number_of(spec, "shock_viscosity", 0) > 0;
   if (split && !stress_free && !viscous && dimension > 1) return;
@@ -170,10 +206,8 @@ Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters
     if (is_hypoelastic(material)) check_solid(material, stress_free, problems);
     check_failure(spec, material, problems);
   }
-  if (hyperelastic && std::any_of(materials.begin(), materials.end(), &fails))
-    problems.add({},
-                 "material: a part that fails and a hyperelastic one cannot be one body (allowed: solids in rate form, "
-                 "such as elastic) - take elastic for the hyperelastic part, or make the parts bodies and tie them");
+  int const block_history = most_block_history(materials);
+  check_parts(materials, stress_free, solids, hyperelastic, problems);
   bool const converts = word_of(spec, choices, "conversion") == "eulerian";
   double const convert_strain = number_of(spec, "convert_strain", unbounded);
   if (convert_strain < unbounded && !converts)
@@ -194,6 +228,7 @@ Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters
   o.stress_free = stress_free;
   o.cfl = std::isnan(cfl) ? 0 : cfl;
   o.solids = solids;
+  o.block_history = block_history;
   o.converts = converts;
   o.convert_strain = convert_strain;
   o.failure = converts || std::any_of(materials.begin(), materials.end(), &fails);

@@ -15,6 +15,7 @@ struct Options {
   bool viscous = false;                   ///< whether cells store viscous stresses beside those of solids in rate form
   double energy_tolerance = 1e-3;         ///< error of Verlet steps, relative to the largest energy; 0: any
   bool solids = false;                    ///< whether some material is a solid in rate form
+  int block_history = -1;                 ///< see FieldNeeds
   bool failure = false;                   ///< whether cells may fail
   bool converts = false;                  ///< whether such cells become Eulerian
   double convert_strain = unbounded;      ///< equivalent strain at which others do

@@ -15,6 +15,13 @@
 namespace piola::nodal {
 namespace {
 
+std::string law_failure_text(MaterialRange const& range, int code) {
+  std::string const law(law_of(range.material).name);
+  if (code == failure_of_law) return fmt::format("gets a stress from the law {} that is not a number", law);
+  return fmt::format("is in a group of particles at which the law {} fails with the code {}", law,
+                     code - failure_of_law);
+}
+
 /// One or more bodies that do not touch each other.
 class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
  public:
@@ -105,8 +112,10 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
   }
   std::vector<FieldInfo> fields() const override {
     auto const any = [&](auto const& of) { return std::any_of(bodies_.begin(), bodies_.end(), of); };
-    return output_field_names(any([](auto const& b) { return b->stores_history(); }),
-                              any([](auto const& b) { return b->state().has.converts; }));
+    auto all = output_field_names(any([](auto const& b) { return b->stores_history(); }),
+                                  any([](auto const& b) { return b->state().has.converts; }));
+    for (auto const& body : bodies_) add_fields_of_laws(*body, all);
+    return all;
   }
 
   void save(StateWriter& writer) const override;
@@ -219,10 +228,12 @@ void Solver::describe(std::size_t k, FailureSlot const& slot, Failure& f) const 
   NodalBody& body = *bodies_[k];
   if (!comm::is_parallel()) update_output_fields(body);
   double const least = NodalBody::value(body.state().cell, slot.index, 2);
-  f.what = slot.code == ImplicitPressure::not_converged ? "is in a body whose implicit pressure does not converge"
-           : slot.code == NodalBody::behind_axis        ? "is behind the axis (a hole closes?)"
-           : least <= 0                                 ? "is inverted"
-                                                        : "has a deformation that is not a number";
+  f.what = slot.code == ImplicitPressure::not_converged
+               ? std::string("is in a body whose implicit pressure does not converge")
+           : slot.code >= failure_of_law         ? law_failure_text(body.material(slot.index), slot.code)
+           : slot.code == NodalBody::behind_axis ? "is behind the axis (a hole closes?)"
+           : least <= 0                          ? "is inverted"
+                                                 : "has a deformation that is not a number";
   f.values = {{"least det F in its cell", least},
               {"det F", determinant(body.F(slot.index))},
               {"neighbours", neighbours_of_failed(k, slot.index)},

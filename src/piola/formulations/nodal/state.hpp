@@ -7,6 +7,7 @@
 #include "piola/mechanics/prescribed_data.hpp"
 
 namespace piola {
+class BlockLaw;
 class SurfaceConstraint;
 class HaloPlan;
 }
@@ -42,7 +43,12 @@ struct MaterialRange {
   Constants constants;
   Index first, last;
   FailureConstants failure{};
+  BlockLaw const* block = nullptr;  ///< the law, if it is of a library
 };
+
+/// Code of a FailureSlot: the law of a library fails. Added to it: the code of the law, 0 if its stress is not a
+/// number.
+inline constexpr int failure_of_law = 1000;
 
 /// Coefficients of the rates in viscous stresses that laws do not have, see Viscosity.
 struct ViscousConstants {
@@ -104,6 +110,7 @@ struct BodyState : Fields {
   ImplicitPressure* implicit_pressure = nullptr;  ///< nullptr: the pressure is explicit
   /// The motion of a step by the pressure of the bulk modulus, and by the velocity that the first kick has left.
   void (*move_by_pressure)(ImplicitPressure& pressure, double dt) = nullptr;
+  double time = 0;            ///< at the end of the step [s]
   bool marks = false;         ///< forces at x also store F^T F in C_measured
   bool refits = false;        ///< a step of length 0 takes over gradients that have changed, see FailureLayout
   double* partial = nullptr;  ///< room for the partial results of blocks

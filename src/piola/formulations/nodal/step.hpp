@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/domain/halo.hpp"
+#include "piola/formulations/nodal/block_law_cells.hpp"
 #include "piola/formulations/nodal/boundary_passes.hpp"
 #include "piola/formulations/nodal/mirror_passes.hpp"
 #include "piola/formulations/nodal/mixed_material_lanes.hpp"
@@ -176,6 +177,11 @@ class Step {
                                       : Cells::Wanted::end;
       update_stress<Observed>(Cells(law, range, b_, maximum(dt, 0.0), wanted), constants, slots, dt);
     });
+    if (range.block != nullptr) {
+      using Cells = BlockLawCells<D>;
+      auto const wanted = Observed ? Cells::Wanted::as_left : dt < 0 ? Cells::Wanted::trial : Cells::Wanted::end;
+      update_stress<Observed>(Cells(*range.block, range, b_, maximum(dt, 0.0), wanted), constants, slots, dt);
+    }
     of_law_before.put_back();
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "piola/formulations/nodal/block_law_cells.hpp"
 #include "piola/formulations/nodal/passes.hpp"
 #include "piola/formulations/nodal/solid_cells.hpp"
 #include "piola/formulations/nodal/stress_free.hpp"
@@ -123,7 +124,7 @@ struct UpdateStress {
     if (offset.data != nullptr) at.F = at.F + offset.matrix<D, Lanes>(i);
     CellEnergy<Law, points, Observed> energy{law, constants.kappa, constants.kappa_local, {}, {}, {}, {}, {}, {}};
     for (int q = 0; q < points; ++q) energy.F[q] = at.whole_at(q);
-    if constexpr (std::is_same_v<Law, SolidCells<D>>)
+    if constexpr (std::is_same_v<Law, SolidCells<D>> || std::is_same_v<Law, BlockLawCells<D>>)
       law(i, energy);
     else if (D < 3 && constants.stress_free)
       energy.template without_lateral_stress<D>();

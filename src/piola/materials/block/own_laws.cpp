@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "piola/materials/block/own_laws.hpp"
+#include <array>
+
+namespace piola::block_laws {
+
+std::span<LawInfo const* const> own_laws() {
+  static std::array const all{&arruda_boyce};
+  return all;
+}
+
+}  // namespace piola::block_laws
