@@ -24,6 +24,8 @@ PAGE = ROOT / "docs/user/features.md"
 FORMULATIONS = ("nodal", "jst_sph", "taylor_sph", "adaptle")
 LAWS = {"nodal": "neo_hookean", "jst_sph": "neo_hookean", "taylor_sph": "linear_elastic", "adaptle": "elastic"}
 STEEL = {"density": 7800, "youngs_modulus": 2e11, "poissons_ratio": 0.3}
+BULK = {"density": 7800, "bulk_modulus": 1.6e11}
+RELAXES = BULK | {"shear_modulus": 8e10, "g_1": 0.5}
 YIELD = STEEL | {"yield_stress": 2e8}
 HARDENS = YIELD | {"hardening_coefficient": 2e8, "hardening_exponent": 0.5, "melting_temperature": 1800}
 
@@ -315,6 +317,9 @@ FEATURES = {
     "`saint_venant_kirchhoff`": material(law="saint_venant_kirchhoff", **STEEL),
     "`compressible_neo_hookean`": material(law="compressible_neo_hookean", **STEEL),
     "`arruda_boyce`": material(law="arruda_boyce", **STEEL, limiting_stretch=2),
+    "`ogden`": material(law="ogden", **BULK, mu_1=8e10, alpha_1=1.5, mu_2=-1e10, alpha_2=-2),
+    "`viscoelastic`": material(law="viscoelastic", **RELAXES, tau_1=1e-5,
+                               without={"law": "viscoelastic", **RELAXES, "tau_1": 1}),
     "`elastic`": material(law="elastic", **STEEL),
     "`perfectly_plastic`": material(law="perfectly_plastic", **YIELD),
     "`isotropic_hardening`": material(name="copper_linear_hardening"),

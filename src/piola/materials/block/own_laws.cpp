@@ -5,7 +5,7 @@
 namespace piola::block_laws {
 
 std::span<LawInfo const* const> own_laws() {
-  static std::array const all{&arruda_boyce};
+  static std::array const all{&arruda_boyce, &ogden, &viscoelastic};
   return all;
 }
 
