@@ -8,6 +8,7 @@
 #include "piola/model/region_checks.hpp"
 #include "piola/particles/part_properties.hpp"
 #include "commands.hpp"
+#include "contact_report.hpp"
 #include "cost_report.hpp"
 #include "run_support.hpp"
 #include "set_up_watch.hpp"
@@ -118,13 +119,6 @@ void print_body(BodySpec const& body, BodyProperties const& facts, ParticleSet c
   print_result("  {}{}\n", body.formulation.name, settings_text(body.formulation));
 }
 
-std::string vector_text(std::array<Expression, 3> const& formulas, int dimension) {
-  std::string text = "(";
-  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
-    text += (d > 0 ? ", " : "") + formulas[d].text();
-  return text + ")";
-}
-
 std::string until_text(double until) { return std::isfinite(until) ? ", until " + quantity_text(until, "s") : ""; }
 
 std::string held_text(SupportSpec const& support, int dimension) {
@@ -190,97 +184,6 @@ void print_cracks(ParticleSet const& particles) {
     print_result("crack in \"{}\": from {} to {}\n", particles.bodies[static_cast<std::size_t>(crack.body)].name,
                  point(crack.from, crack.tip_at_from), point(crack.to, crack.tip_at_to));
   }
-}
-
-std::string shape_text(RigidShape const& shape, int dimension) {
-  auto const point = [&](std::array<double, 3> const& x, char const* unit) {
-    std::string text;
-    for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
-      text += (d > 0 ? ", " : "") + number_text(x[d], 4);
-    return "(" + text + ")" + unit;
-  };
-  std::string const centre = point(shape.centre, " m"), radius = "radius " + quantity_text(shape.radius, "m");
-  switch (shape.kind) {
-    case RigidShape::Kind::plane: return "plane through " + centre + ", normal " + point(shape.axis, "");
-    case RigidShape::Kind::sphere: return "sphere about " + centre + ", " + radius;
-    case RigidShape::Kind::cylinder:
-      return "cylinder about " + centre + ", axis " + point(shape.axis, "") + ", " + radius + ", length " +
-             quantity_text(2 * shape.half_lengths[0], "m");
-    case RigidShape::Kind::box: break;
-  }
-  std::array<double, 3> lengths = shape.half_lengths;
-  for (double& length : lengths) length *= 2;
-  return "box about " + centre + ", edges " + point(lengths, " m");
-}
-
-std::string friction_text(contact::FrictionLaw const& law) {
-  if (!law.any()) return "without friction";
-  std::string text = "friction " + number_text(law.kinetic);
-  if (law.still > 0)
-    text += fmt::format(" ({} at rest, over {})", number_text(law.still), quantity_text(law.decay_speed, "m/s"));
-  if (std::isfinite(law.shear_limit)) text += ", at most " + quantity_text(law.shear_limit, "Pa");
-  return text;
-}
-
-/// Prints the pairs of bodies in colour contact, without surfaces.
-void print_colours(CaseSpec const& spec) {
-  std::vector<std::string> pairs;
-  auto const& bodies = spec.bodies;
-  for (std::size_t a = 0; a < bodies.size(); ++a)
-    for (std::size_t b = a + 1; b < bodies.size(); ++b)
-      if (pushed_by_colour(spec, a, b)) pairs.push_back(bodies[a].name + "-" + bodies[b].name);
-  if (!pairs.empty()) print_result("contact by colour, without friction: {}\n", joined(pairs));
-}
-
-/// Prints the pairs in surface contact with their friction and stiffness scale.
-void print_surfaces(CaseSpec const& spec) {
-  if (!has_surface_contact(spec)) return;
-  std::vector<std::string> pairs;
-  auto const& bodies = spec.bodies;
-  for (std::size_t a = 0; a < bodies.size(); ++a) {
-    for (std::size_t b = a; b < bodies.size(); ++b)
-      if (pushed_by_surface(spec, a, b)) pairs.push_back(bodies[a].name + "-" + bodies[b].name);
-    for (std::size_t r = 0; r < spec.rigids.size(); ++r)
-      if (pushed_by_rigid(spec, a, r)) pairs.push_back(bodies[a].name + "-" + spec.rigids[r].name);
-  }
-  constexpr std::size_t most = 8;
-  std::size_t const left_out = pairs.size() > most ? pairs.size() - most : 0;
-  pairs.resize(pairs.size() - left_out);
-  ContactRule const rule = spec.contact ? ContactRule(*spec.contact) : ContactRule();
-  print_result("contact of surfaces: {}{}, {}{}\n", joined(pairs),
-               left_out > 0 ? " and " + count_text(static_cast<std::int64_t>(left_out)) + " more" : "",
-               friction_text(rule.friction), rule.scale != 1 ? ", scale " + number_text(rule.scale) : "");
-  for (ContactPairSpec const& pair : spec.contact_pairs)
-    print_result("  {}-{}: {}{}\n", pair.between[0], pair.between[1],
-                 pair.off ? "no contact" : friction_text(pair.friction),
-                 !pair.off && pair.scale != 1 ? ", scale " + number_text(pair.scale) : "");
-}
-
-void print_contact(CaseSpec const& spec, int dimension) {
-  for (RigidSpec const& rigid : spec.rigids) {
-    bool const moves = std::any_of(rigid.velocity.begin(), rigid.velocity.end(),
-                                   [](Expression const& component) { return component.text() != "0"; });
-    std::string const speed = moves ? vector_text(rigid.velocity, dimension) + " m/s" : "";
-    std::string motion = moves ? ", driven at " + speed : "";
-    if (rigid.free)
-      motion = ", free, mass " + quantity_text(rigid.mass, dimension == 2 && !spec.axisymmetric ? "kg/m" : "kg") +
-               (moves ? ", starts at " + speed : "");
-    else if (rigid.turns())
-      motion += ", turning";
-    print_result("rigid shape \"{}\": {}{}\n", rigid.name, shape_text(rigid, dimension), motion);
-  }
-  print_surfaces(spec);
-  print_colours(spec);
-  bool const own = has_kernel_contact(spec);
-  if (!own) return;
-  constexpr std::array<std::string_view, 5> laws{"none", "kernel", "linear", "published", "surface"};
-  ContactRule const rule = spec.contact ? ContactRule(*spec.contact) : ContactRule();
-  std::string text;
-  if (rule.scale != 1) text += ", scale " + number_text(rule.scale);
-  if (rule.law == ContactRule::Law::as_published)
-    text += ", stiffness " + quantity_text(rule.stiffness, "Pa/m^" + std::to_string(dimension));
-  if (std::isfinite(rule.closing_speed)) text += ", closing speed " + quantity_text(rule.closing_speed, "m/s");
-  print_result("contact: law {}{}\n", laws[static_cast<std::size_t>(rule.law)], text);
 }
 
 void print_ties(CaseSpec const& spec, ParticleSet const& particles) {

@@ -44,6 +44,25 @@ TEST(Expression, AllFunctionsOfTheManualExist) {
   EXPECT_DOUBLE_EQ(value_of("min(3,1,2)+10*max(3,1,2)"), 31);
 }
 
+TEST(Expression, MayBeAFunctionOfAnother) {
+  Names names;
+  names.definitions = {{"w", "X + 2*t"}};
+  Expression const inner("w", names),
+      outer(
+          "twice", [](double x) { return 2 * x; }, inner),
+      copy(outer);
+  EXPECT_DOUBLE_EQ(copy({3, 0, 0}, 4), 22);
+  EXPECT_EQ(copy.text(), "twice");
+  EXPECT_TRUE(copy.depends_on_time() && copy.uses("X") && !copy.uses("Y"));
+  EXPECT_TRUE(copy.holds_anywhere() && !copy.is_formula() && inner.is_formula());
+  Expression const called("called", [](std::array<double, 3> const&, double) { return 1; });
+  EXPECT_TRUE(called.uses("Y") && called.depends_on_time());
+  EXPECT_FALSE(called.holds_anywhere() || called.is_formula());
+  EXPECT_FALSE(Expression(
+                   "twice", [](double x) { return 2 * x; }, called)
+                   .holds_anywhere());
+}
+
 TEST(Expression, OperatorsFollowTheUsualOrder) {
   EXPECT_DOUBLE_EQ(value_of("2^3^2"), 512);
   EXPECT_DOUBLE_EQ(value_of("-2^2"), -4);

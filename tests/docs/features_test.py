@@ -244,6 +244,17 @@ def rigid(**given):
     return make
 
 
+def on_free_shape(**more):
+    """What acts on a free shape: keys of its section, or other sections as lists."""
+    def make(formulation):
+        free, _ = rigid(motion="free", mass=100)(formulation)
+        acted = copy.deepcopy(free)
+        for key, value in more.items():
+            (acted if key == "spring" else acted["rigid"][0])[key] = value
+        return acted, free
+    return make
+
+
 def rigid_friction(formulation):
     made, _ = rigid()(formulation)
     return made | {"contact": {"law": "surface", "friction": 0.5}}, made | {"contact": {"law": "surface"}}
@@ -370,6 +381,8 @@ FEATURES = {
     "pressure": load(face="+x", pressure="1e5"),
     "pressure that follows the deformed face": follows,
     "body forces, gravity": load(acceleration=["0", "-9.81"]),
+    "loads, velocities and initial values from tables and CSV files":
+        load(acceleration=["0", {"table": [[0, 0], ["8 ms", -9.81]]}]),
     "damping": with_run(damping=100),
     "relaxation to rest": relaxed,
     "relaxation by conjugate gradients": descended,
@@ -381,6 +394,10 @@ FEATURES = {
     "friction on rigid shapes": rigid_friction,
     "rigid shapes that are driven": rigid(velocity=["0", "10"]),
     "free rigid bodies": rigid(motion="free", mass=100),
+    "forces and torques on free rigid bodies": on_free_shape(force=[100, "1 kN/m"], torque=["t*1e4"]),
+    "springs and dashpots of free rigid bodies":
+        on_free_shape(spring=[{"between": ["floor"], "points": [[0, 0], [0, -1]], "stiffness": 1e4, "damping": 100,
+                               "rest_length": 0.5}]),
     "ties": tie(),
     "ties to rigid shapes": tie_to_rigid,
     "cohesive zones": tie(strength=1e5, toughness=1000),

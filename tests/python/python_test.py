@@ -220,6 +220,16 @@ class Cases(InFolder):
         a.step(3), b.step(3)
         np.testing.assert_array_equal(a.field("Velocity"), b.field("Velocity"))
 
+    def test_tables_are_arrays(self):
+        t = np.linspace(0, 0.01, 11)
+        pull = {"body.column.initial_velocity": [0, 0, 0], "support.ground.velocity": [0, "-30*t", 0]}
+        by_formula = piola.Run(column(**pull))
+        pull["support.ground.velocity"] = [0, {"table": np.column_stack([t, -30 * t]), "after": "error"}, 0]
+        by_table = piola.Run(column(**pull))
+        by_formula.step(5), by_table.step(5)
+        np.testing.assert_allclose(by_table.field("Velocity"), by_formula.field("Velocity"), rtol=1e-9, atol=1e-12)
+        self.assertGreater(np.abs(by_table.field("Velocity")).max(), 0)
+
     def test_warnings(self):
         odd = {"body.column.material.youngs_modulus": 10}
         self.assertTrue(column(**odd).check())

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <muParser.h>
 #include <numbers>
+#include <optional>
 #include <set>
 
 namespace piola {
@@ -95,7 +96,9 @@ std::string explain(mu::Parser::exception_type const& error) {
 struct Expression::Compiled {
   std::string text = "0";
   Names names;
-  Function function;  ///< instead of the formula, if there is one
+  Function function;                    ///< instead of the formula, if there is one
+  std::function<double(double)> outer;  ///< instead of the formula, with its argument
+  std::optional<Expression> argument;
   double X = 0, Y = 0, Z = 0, t = 0;
   std::vector<double> values;        ///< of the variables in `names`; never resized once parsers point to them
   std::vector<double> place_values;  ///< of the numbers of places in `names`; never resized either
@@ -204,11 +207,22 @@ Expression::Expression(std::string text, Function function) : compiled_(std::mak
   compiled_->constant = false;
 }
 
+Expression::Expression(std::string text, std::function<double(double)> outer, Expression argument)
+    : compiled_(std::make_unique<Compiled>()) {
+  PIOLA_EXPECTS(outer != nullptr);
+  compiled_->text = std::move(text);
+  compiled_->outer = std::move(outer);
+  compiled_->argument = std::move(argument);
+  compiled_->constant = false;
+}
+
 Expression::Expression(Expression const& other) {
   PIOLA_EXPECTS(other.compiled_ != nullptr);
   Compiled const& c = *other.compiled_;
   if (c.function)
     *this = Expression(c.text, c.function);
+  else if (c.argument)
+    *this = Expression(c.text, c.outer, *c.argument);
   else if (c.constant && c.text == "0")
     compiled_ = std::make_unique<Compiled>();
   else
@@ -228,6 +242,7 @@ double Expression::operator()(std::array<double, 3> const& X, double t, std::spa
   Compiled& c = *compiled_;
   if (c.constant) return c.constant_value;
   if (c.function) return c.function(X, t);
+  if (c.argument) return c.outer((*c.argument)(X, t, variables));
   PIOLA_EXPECTS(!c.needs_values || variables.size() == c.values.size());
   if (c.needs_values) std::copy(variables.begin(), variables.end(), c.values.begin());
   c.X = X[0];
@@ -245,16 +260,27 @@ std::string const& Expression::text() const {
   return compiled_->text;
 }
 
-bool Expression::depends_on_time() const {
+bool Expression::uses(std::string_view variable) const {
   PIOLA_EXPECTS(compiled_ != nullptr);
   if (compiled_->function) return true;
-  auto const uses_time = [](std::string const& text) {
+  if (compiled_->argument) return compiled_->argument->uses(variable);
+  auto const occurs_in = [&](std::string const& text) {
     auto const words = expression_words(text);
-    return std::find(words.begin(), words.end(), "t") != words.end();
+    return std::find(words.begin(), words.end(), variable) != words.end();
   };
   auto const& definitions = compiled_->names.definitions;
-  return uses_time(compiled_->text) ||
-         std::any_of(definitions.begin(), definitions.end(), [&](Definition const& d) { return uses_time(d.text); });
+  return occurs_in(compiled_->text) ||
+         std::any_of(definitions.begin(), definitions.end(), [&](Definition const& d) { return occurs_in(d.text); });
+}
+
+bool Expression::holds_anywhere() const {
+  PIOLA_EXPECTS(compiled_ != nullptr);
+  return !compiled_->function && (!compiled_->argument || compiled_->argument->holds_anywhere());
+}
+
+bool Expression::is_formula() const {
+  PIOLA_EXPECTS(compiled_ != nullptr);
+  return !compiled_->function && !compiled_->argument;
 }
 
 }  // namespace piola

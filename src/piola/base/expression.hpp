@@ -42,6 +42,9 @@ class Expression {
   /// which may be called from any thread. `text` describes it in messages.
   using Function = std::function<double(std::array<double, 3> const& X, double t)>;
   Expression(std::string text, Function function);
+  /// The value that `outer` gives for the value of another expression: a table over t, say. `outer` may be called from
+  /// any thread. `text` describes it in messages.
+  Expression(std::string text, std::function<double(double)> outer, Expression argument);
   Expression(Expression const&);
   Expression& operator=(Expression const&);
   Expression(Expression&&) noexcept;
@@ -53,7 +56,13 @@ class Expression {
   /// As above, with the values of `Names::variables` in their order; formulas that use none of them need no values.
   double operator()(std::array<double, 3> const& X, double t, std::span<double const> variables) const;
   std::string const& text() const;
-  bool depends_on_time() const;  ///< t occurs in it, or in a definition that it uses
+  bool depends_on_time() const { return uses("t"); }
+  /// Whether X, Y, Z or t occurs in it, or in a definition that it uses. A Function may use all of them.
+  bool uses(std::string_view variable) const;
+  /// Whether it may be evaluated at any place and time. A Function may know its own places and times alone.
+  bool holds_anywhere() const;
+  /// Whether it is a formula or a number, which its text gives, and no function of the program.
+  bool is_formula() const;
 
  private:
   struct Compiled;

@@ -8,6 +8,7 @@
 #include "piola/mechanics/contact/tie_rule.hpp"
 #include "piola/mechanics/load.hpp"
 #include "piola/mechanics/rigid_shape.hpp"
+#include "piola/mechanics/rigid_spring.hpp"
 #include "piola/mechanics/support.hpp"
 #include "piola/particles/particle_set.hpp"
 #include <array>
@@ -76,6 +77,7 @@ struct Assembly {
   std::vector<Load> loads;
   std::vector<MirrorPlane> mirrors;
   std::vector<RigidShape> rigid_shapes;
+  std::vector<RigidSpring> springs;  ///< of rigid shapes
   ContactRule contact;
   std::vector<ContactPair> contact_pairs;
   std::vector<contact::Surface> surfaces;                 ///< one per body, or empty: no surface contact

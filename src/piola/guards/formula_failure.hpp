@@ -4,6 +4,8 @@
 #include "piola/input/case_spec.hpp"
 #include "piola/observers/time_state.hpp"
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace piola {
 
@@ -11,5 +13,8 @@ namespace piola {
 /// the cause of a failure: its text, t and X. Empty if all are finite. Cost: a few evaluations per particle with a
 /// formula.
 std::optional<Failure> failure_of_formula(CaseSpec const& spec, ParticleSet const& particles, TimeState const& moment);
+
+/// The tables among the values of loads, driven supports and rigid shapes: 'load on body "bar": traction: table ...'.
+std::vector<std::string> notes_of_tables(CaseSpec const& spec);
 
 }  // namespace piola

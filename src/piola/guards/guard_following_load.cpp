@@ -27,18 +27,20 @@ bool feeds_motion(LoadSpec const& load, ParticleSet const& particles, double tim
   return varies_between(ids, load.value[0], particles, time);
 }
 
-/// Whether the values of a load may be evaluated at any time (see is_formula()).
-bool has_formulas(LoadSpec const& load) { return std::all_of(load.value.begin(), load.value.end(), is_formula); }
+/// Whether the values of a load may be evaluated at any time.
+bool holds_anywhere(LoadSpec const& load) {
+  return std::all_of(load.value.begin(), load.value.end(), [](Expression const& e) { return e.holds_anywhere(); });
+}
 
 /// Watches for kinetic energy that grows although damping takes energy and every load is steady. A pressure that
 /// follows its face and varies along the face feeds such motion (docs/theory/nodal.md, section 6). The guard judges
-/// runs with `run.damping` only, because a vibration need not decay without damping, and loads that are formulas.
+/// runs with `run.damping` only, because a vibration need not decay without damping, and loads that hold anywhere.
 class FollowingLoadGuard : public Guard {
  public:
   FollowingLoadGuard(CaseSpec const& spec, ParticleSet const& particles) : spec_(spec), particles_(particles) {
     bool const follows =
         std::any_of(spec.loads.begin(), spec.loads.end(), [](LoadSpec const& load) { return load.follower; });
-    bool const known = std::all_of(spec.loads.begin(), spec.loads.end(), has_formulas);
+    bool const known = std::all_of(spec.loads.begin(), spec.loads.end(), holds_anywhere);
     judges_ = spec.run.damping > 0 && follows && known && !has_driven_support(spec);
   }
 

@@ -123,6 +123,21 @@ std::string digest_of_file(fs::path const& path) {
   return FileToRead(path).problem().empty() ? content_hash(path) : "";
 }
 
+std::vector<CaseFile> files_named_in(Node const& root) {
+  std::vector<CaseFile> files;
+  auto const add = [&](Node const& node) {
+    auto const more = files_named_in(node);
+    files.insert(files.end(), more.begin(), more.end());
+  };
+  for (Node::Entry const& entry : root.entries)
+    if (entry.key == "file" && entry.value.is_text())
+      files.push_back(case_file(entry.value));
+    else
+      add(entry.value);
+  for (Node const& item : root.items) add(item);
+  return files;
+}
+
 std::vector<CaseFile> files_of(CaseSpec const& spec) {
   std::vector<CaseFile> all;
   auto const add = [&](std::vector<CaseFile> const& files) {
@@ -137,6 +152,7 @@ std::vector<CaseFile> files_of(CaseSpec const& spec) {
     for (PartSpec const& part : body.parts) add(part.law_files);
   }
   for (RegionSpec const& region : spec.regions) add(region.files);
+  add(spec.named_files);
   return all;
 }
 

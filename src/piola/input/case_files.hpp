@@ -38,6 +38,9 @@ std::string content_hash(std::filesystem::path const& path);
 /// Digest of the content of a file; empty if it is no ordinary file or cannot be read.
 std::string digest_of_file(std::filesystem::path const& path);
 
+/// The files that the keys `file` of a document name, in its order.
+std::vector<CaseFile> files_named_in(Node const& root);
+
 /// All files that a case reads, each once, in the order of the case.
 std::vector<CaseFile> files_of(CaseSpec const& spec);
 

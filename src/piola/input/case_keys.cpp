@@ -51,9 +51,13 @@ constexpr std::array sections{
     SectionInfo{"rigid.sphere", "sphere = { ... }", "a sphere (2D: a disc)"},
     SectionInfo{"rigid.cylinder", "cylinder = { ... }", "a circular cylinder, three dimensions only"},
     SectionInfo{"rigid.box", "box = { ... }", "a box (2D: a rectangle): min and max, or centre and lengths"},
+    SectionInfo{"spring", "[[spring]]",
+                "a spring, a dashpot or both between rigid shapes, or a rigid shape and a point"},
     SectionInfo{"contact", "[contact]", "what keeps bodies, and bodies and rigid shapes, apart"},
     SectionInfo{"tie", "[[tie]]",
                 "two bodies, or a body and a rigid shape, held together where their surfaces touch at the start"},
+    SectionInfo{"table", "{ table = [...] }",
+                "a table in place of a formula of a value with a unit: exactly one of table, file"},
     SectionInfo{"probe", "[[probe]]", "columns NAME.QUANTITY of history.csv"},
     SectionInfo{"quantity", "[[quantity]]", "a number of summary.json, taken from a column of history.csv"},
     SectionInfo{"output", "[output]", "what is written; each part may be left out"},
@@ -69,7 +73,7 @@ constexpr std::array sections{
 std::vector<KeyInfo> joined_tables() {
   std::vector<KeyInfo> all;
   for (auto const& part : {keys_of_run(), keys_of_bodies(), keys_of_solids(), keys_of_regions(), keys_of_boundaries(),
-                           keys_of_observers(), keys_of_output()})
+                           keys_of_tables(), keys_of_observers(), keys_of_output()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }
@@ -111,8 +115,8 @@ std::string value_text(KeyInfo const& info) {
     case point:
       if (unit == "1") return "a list of numbers, one per direction";
       return "a list of numbers in " + unit + " or texts such as \"2 " + unit + "\", one per direction";
-    case formula: return "a text with a formula";
-    case formulas: return "a list of formulas";
+    case formula: return unit.empty() ? "a text with a formula" : "a text with a formula, or a table";
+    case formulas: return unit.empty() ? "a list of formulas" : "a list of formulas or tables";
     case list: return "a list";
     case table: return "a table";
   }

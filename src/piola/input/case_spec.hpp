@@ -128,6 +128,11 @@ struct RigidSpec : RigidShape {
   Places places;
 };
 
+/// [[spring]]: a spring and dashpot of a free rigid shape.
+struct SpringSpec : RigidSpring {
+  Places places;
+};
+
 /// [contact]: what keeps bodies apart.
 struct ContactSpec : ContactRule {
   Places places;
@@ -251,6 +256,7 @@ struct CaseSpec {
   std::vector<MirrorSpec> mirrors;
   std::vector<CrackSpec> cracks;
   std::vector<RigidSpec> rigids;
+  std::vector<SpringSpec> springs;
   std::optional<ContactSpec> contact;  ///< nothing: the formulation's rule
   std::vector<ContactPairSpec> contact_pairs;
   std::vector<TieSpec> ties;
@@ -258,6 +264,7 @@ struct CaseSpec {
   std::vector<QuantitySpec> quantities;
   OutputSpec output;
   std::vector<CaseFile> library_files;  ///< key `library`; bodies hold what they take from them
+  std::vector<CaseFile> named_files;    ///< of all keys `file`
 };
 
 }  // namespace piola

@@ -23,6 +23,7 @@ std::vector<KeyInfo> keys_of_bodies();      ///< top of the file, body
 std::vector<KeyInfo> keys_of_regions();     ///< body.part, region
 std::vector<KeyInfo> keys_of_solids();      ///< shapes that are solids, their parts and placing
 std::vector<KeyInfo> keys_of_boundaries();  ///< support, load, mirror, crack, rigid, contact, tie
+std::vector<KeyInfo> keys_of_tables();      ///< table
 std::vector<KeyInfo> keys_of_observers();   ///< probe, quantity
 std::vector<KeyInfo> keys_of_output();      ///< output and its parts
 

@@ -31,6 +31,7 @@ constexpr std::array body_keys{
     KeyInfo{"", "mirror", list, "", any_value, "none", "the planes of symmetry"},
     KeyInfo{"", "crack", list, "", any_value, "none", "the cracks"},
     KeyInfo{"", "rigid", list, "", any_value, "none", "the rigid obstacles"},
+    KeyInfo{"", "spring", list, "", any_value, "none", "the springs of rigid shapes"},
     KeyInfo{"", "contact", table, "", any_value, "see [contact]", "what keeps bodies apart; \"none\": nothing",
             none_word},
     KeyInfo{"", "tie", list, "", any_value, "none", "what holds bodies together"},

@@ -12,6 +12,7 @@ using enum KeyInfo::Kind;
 
 constexpr std::array<std::string_view, 5> contact_words{"kernel", "linear", "published", "surface", "none"};
 constexpr std::array<std::string_view, 2> hold_words{"surface", "particles"};
+constexpr std::array<std::string_view, 2> axes_words{"space", "body"};
 constexpr std::array<std::string_view, 3> motion_words{"fixed", "driven", "free"};
 constexpr std::array<std::string_view, 6> face_words{"-x", "+x", "-y", "+y", "-z", "+z"};
 constexpr std::array<std::string_view, 8> surface_words{"-x", "+x", "-y", "+y", "-z", "+z", "outer", "inner"};
@@ -114,6 +115,15 @@ constexpr std::array rigid_rows{
          "kg m^2, for a shape that stands in for another one; in 2D a list of one, in kg m"}},
     RigidKey{{"rigid", "gravity", formulas, "m/s^2", any_value, "none",
               "free: acceleration, one formula in t and the constants per direction"}},
+    RigidKey{
+        {"rigid", "force", formulas, "N", any_value, "none",
+         "free: force on the centre, one formula in t and the constants per direction; in 2D per length, in N/m (not "
+         "axisymmetric)"}},
+    RigidKey{{"rigid", "torque", formulas, "N m", any_value, "none",
+              "free: torque about the centre: formulas for x, y and z; in 2D a list of one, per length, in N"}},
+    RigidKey{{"rigid", "torque_axes", word, "", any_value, default_of_member,
+              "torque: axes of space, or those that turn with the body and are x, y and z at the start", axes_words},
+             fills<&RigidSpec::torque_axes>},
     RigidKey{{"rigid", "fix", text, "", any_value, "none",
               "free: directions in which it keeps the velocity of the start: letters of \"xyz\""}},
     RigidKey{{"rigid", "turns", flag, "", any_value, default_of_member, "free: false keeps it from turning"},
@@ -182,6 +192,22 @@ constexpr std::array friction_rows{
                 fills<&contact::FrictionLaw::shear_limit>},
 };
 
+constexpr std::array spring_rows{
+    SpringKey{{"spring", "name", name, "", any_value, "spring_0, spring_1, ...",
+               "first part of the columns NAME.force_x to NAME.moment_z of history.csv: on the first shape"},
+              fills<&SpringSpec::name>},
+    SpringKey{{"spring", "between", list, "", any_value, "",
+               "names of two rigid shapes, one of them free; or of a free one, for a spring to a point at rest"}},
+    SpringKey{
+        {"spring", "points", list, "", any_value, "", "places of both ends at the start, in the order of between"}},
+    SpringKey{{"spring", "stiffness", quantity, "", not_negative, "0",
+               "force per elongation, in N/m; in 2D per length, in N/m^2 (not axisymmetric)"}},
+    SpringKey{{"spring", "damping", quantity, "", not_negative, "0",
+               "force per rate of elongation, in N s/m; in 2D per length, in N s/m^2 (not axisymmetric)"}},
+    SpringKey{{"spring", "rest_length", quantity, "m", not_negative, "the distance of the points",
+               "length without force of the spring"}},
+};
+
 constexpr std::array tie_rows{
     TieKey{{"tie", "name", name, "", any_value, "tie_0, tie_1, ...",
             "first part of the columns NAME.force_x to NAME.moment_z of history.csv, what the second one does to the "
@@ -211,15 +237,16 @@ std::span<SupportKey const> support_keys() { return support_rows; }
 std::span<LoadKey const> load_keys() { return load_rows; }
 std::span<MirrorKey const> mirror_keys() { return mirror_rows; }
 std::span<RigidKey const> rigid_keys() { return rigid_rows; }
+std::span<SpringKey const> spring_keys() { return spring_rows; }
 std::span<ContactKey const> contact_keys() { return contact_rows; }
 std::span<FrictionKey const> friction_keys() { return friction_rows; }
 std::span<TieKey const> tie_keys() { return tie_rows; }
 
 std::vector<KeyInfo> keys_of_boundaries() {
   constexpr std::size_t before_friction = 3;
-  auto keys =
-      joined_keys(support_keys(), load_keys(), mirror_keys(), rigid_keys(), contact_keys().first(before_friction),
-                  friction_keys(), contact_keys().subspan(before_friction), tie_keys());
+  auto keys = joined_keys(support_keys(), load_keys(), mirror_keys(), rigid_keys(), spring_keys(),
+                          contact_keys().first(before_friction), friction_keys(),
+                          contact_keys().subspan(before_friction), tie_keys());
   keys.insert(keys.end(), crack_rows.begin(), crack_rows.end());
   return keys;
 }

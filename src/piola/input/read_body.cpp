@@ -94,6 +94,15 @@ std::optional<std::array<Expression, 9>> read_gradient(Section const& section, B
   return F;
 }
 
+/// Refuses a table over time as a value at the start, where it is the same everywhere.
+void refuse_tables_over_time(Section const& section, std::string_view key, std::span<Expression const> formulas) {
+  for (Expression const& formula : formulas)
+    if (!formula.is_formula() && formula.depends_on_time())
+      section.problems().add(section.place_of(key), section.name_of(key) + " is a " + formula.text() +
+                                                        " (allowed: over a place, since it is the value at the "
+                                                        "start) - add over = \"X\" or another formula of the place");
+}
+
 void check_law(Section const& section, BodySpec const& body) {
   auto const formulation = find_formulation(body.formulation.name);
   if (!formulation || body.law.empty()) return;
@@ -167,6 +176,10 @@ BodySpec read_body(Section const& section, Names const& common, CaseLibrary cons
   if (auto velocity = read_vector(section, "initial_velocity", names)) body.initial_velocity = std::move(*velocity);
   body.initial_displacement = read_vector(section, "initial_displacement", names);
   body.initial_deformation_gradient = read_gradient(section, names);
+  refuse_tables_over_time(section, "initial_velocity", body.initial_velocity);
+  if (auto const& u = body.initial_displacement) refuse_tables_over_time(section, "initial_displacement", *u);
+  if (auto const& F = body.initial_deformation_gradient)
+    refuse_tables_over_time(section, "initial_deformation_gradient", *F);
   section.refuse_unknown();
   body.places.merge(places_of(section, {"name", "shape", "material", "formulation", "initial_velocity",
                                         "initial_displacement", "initial_deformation_gradient"}));

@@ -22,6 +22,21 @@ struct Column {
   std::string name, unit;
 };
 
+void add_part(std::string const& name, std::span<PartQuantity const> quantities, std::vector<Column>& columns) {
+  for (PartQuantity const& q : quantities) columns.push_back({name + "." + std::string(q.word), std::string(q.unit)});
+}
+
+/// Adds the columns of rigid shapes and their springs.
+void add_rigid_columns(CaseSpec const& spec, std::vector<Column>& columns) {
+  for (RigidSpec const& rigid : spec.rigids) {
+    add_part(rigid.name, action_quantities(), columns);
+    if (rigid.turns()) add_part(rigid.name, rigid_quantities(), columns);
+  }
+  if (!spec.springs.empty())
+    for (char const* name : {"spring_energy", "dashpot_loss"}) columns.push_back({name, "J"});
+  for (SpringSpec const& spring : spec.springs) add_part(spring.name, action_quantities(), columns);
+}
+
 std::vector<Column> columns_of(CaseSpec const& spec) {
   std::vector<Column> columns;
   for (HistoryName const& column : history_names())
@@ -31,17 +46,14 @@ std::vector<Column> columns_of(CaseSpec const& spec) {
       columns.push_back({std::string(column.name), std::string(column.unit)});
   }
   auto const add_all = [&](std::string const& name, std::span<PartQuantity const> quantities) {
-    for (PartQuantity const& q : quantities) columns.push_back({name + "." + std::string(q.word), std::string(q.unit)});
+    add_part(name, quantities, columns);
   };
   for (BodySpec const& body : spec.bodies)
     if (spec.bodies.size() > 1) add_all(body.name, body_quantities());
   for (SupportSpec const& support : spec.supports) add_all(support.name, action_quantities());
   for (LoadSpec const& load : spec.loads)
     if (!load.name.empty()) add_all(load.name, action_quantities());
-  for (RigidSpec const& rigid : spec.rigids) {
-    add_all(rigid.name, action_quantities());
-    if (rigid.turns()) add_all(rigid.name, rigid_quantities());
-  }
+  add_rigid_columns(spec, columns);
   if (bodies_are_pushed(spec)) {
     for (auto const& [name, unit] : contact_columns) columns.push_back({name, unit});
     for (std::size_t a = 0; a < spec.bodies.size(); ++a)

@@ -102,7 +102,7 @@ RigidSpec read_rigid(Section const& section, BodyNames const& names) {
   read_rigid_motion(section, names, rigid);
   section.refuse_unknown();
   rigid.places = places_of(section, {"name", "plane", "sphere", "cylinder", "box", "motion", "velocity",
-                                     "angular_velocity", "gravity", "mass"});
+                                     "angular_velocity", "gravity", "force", "torque", "mass"});
   return rigid;
 }
 

@@ -18,11 +18,11 @@ void refuse_variables(Section const& section, std::string_view key, Formulas con
   for (std::size_t d = 0; d < formulas.size(); ++d) {
     std::string const formula =
         section.name_of(key) + "[" + std::to_string(d) + "], formula " + in_quotes(formulas[d].text());
-    auto const words = expression_words(formulas[d].text());
-    auto const place = std::find_if(words.begin(), words.end(),
-                                    [](std::string const& word) { return word == "X" || word == "Y" || word == "Z"; });
-    if (place != words.end()) {
-      section.problems().add(section.place_of(key), formula + " uses " + *place +
+    constexpr std::array<std::string_view, 3> coordinates{"X", "Y", "Z"};
+    auto const place = std::find_if(coordinates.begin(), coordinates.end(),
+                                    [&](std::string_view coordinate) { return formulas[d].uses(coordinate); });
+    if (place != coordinates.end()) {
+      section.problems().add(section.place_of(key), formula + " uses " + std::string(*place) +
                                                         " (allowed: t and the constants) - a rigid shape moves as one");
     } else if (at_start && formulas[d].depends_on_time()) {
       section.problems().add(section.place_of(key), formula +
@@ -72,6 +72,21 @@ void read_mass(Section const& section, BodyNames const& names, RigidSpec& rigid)
     rigid.mass = rho * (names.axisymmetric ? swept_volume_of(rigid) : volume_of(rigid, names.dimension));
 }
 
+/// Force and torque on a free shape.
+void read_forces(Section const& section, BodyNames const& names, RigidSpec& rigid) {
+  bool const per_length = names.dimension == 2 && !names.axisymmetric;
+  auto const d = static_cast<std::size_t>(names.dimension), axes = d == 3 ? 3 : std::size_t{1};
+  if (auto const value = section.find("force"))
+    if (auto force = read_formulas(*value, per_length ? "N/m" : "N", d, names.names, section.problems()))
+      std::move(force->begin(), force->end(), rigid.force.begin());
+  if (auto const value = section.find("torque"))
+    if (auto torque = read_formulas(*value, per_length ? "N" : "N m", axes, names.names, section.problems()))
+      std::move(torque->begin(), torque->end(), rigid.torque.end() - static_cast<int>(axes));
+  for (char const* key : {"force", "torque"})
+    refuse_variables(section, key, key[0] == 'f' ? rigid.force : rigid.torque, false);
+  if (!section.has("torque")) section.refuse("torque_axes", "is used only with a torque");
+}
+
 void read_free(Section const& section, BodyNames const& names, RigidSpec& rigid) {
   rigid.free = true;
   if (rigid.kind == RigidShape::Kind::plane && section.has("plane"))
@@ -86,6 +101,7 @@ void read_free(Section const& section, BodyNames const& names, RigidSpec& rigid)
   refuse_variables(section, "angular_velocity", rigid.angular_velocity, true);
   if (auto gravity = read_vector(section, "gravity", names)) rigid.gravity = std::move(*gravity);
   refuse_variables(section, "gravity", rigid.gravity, false);
+  read_forces(section, names, rigid);
   if (std::string fix; section.read("fix", fix)) rigid.held = fixed_axes(section, fix, names.dimension);
   section.read("turns", rigid.can_turn);
   if (names.axisymmetric) {  // moves along the axis
@@ -93,7 +109,8 @@ void read_free(Section const& section, BodyNames const& names, RigidSpec& rigid)
     rigid.can_turn = false;
   }
   if (!rigid.can_turn)
-    for (char const* key : {"angular_velocity", "inertia"}) section.refuse(key, "has no meaning with turns = false");
+    for (char const* key : {"angular_velocity", "inertia", "torque"})
+      section.refuse(key, "has no meaning with turns = false");
 }
 
 }  // namespace
@@ -107,7 +124,7 @@ void read_rigid_motion(Section const& section, BodyNames const& names, RigidSpec
   }
   refuse_variables(section, "velocity", rigid.velocity, false);
   refuse_variables(section, "angular_velocity", rigid.angular_velocity, false);
-  for (char const* key : {"mass", "density", "inertia", "gravity", "fix", "turns"})
+  for (char const* key : {"mass", "density", "inertia", "gravity", "force", "torque", "torque_axes", "fix", "turns"})
     section.refuse(key, "is used only with motion = \"free\"");
 }
 

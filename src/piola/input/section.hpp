@@ -28,9 +28,11 @@ std::optional<std::int64_t> read_whole(Value const& value, Interval const& allow
 std::optional<std::string> read_text(Value const& value, Problems& problems);
 /// A text that must be one of `allowed`.
 std::optional<std::string> read_word(Value const& value, std::vector<std::string> const& allowed, Problems& problems);
-/// A formula, a number, or (if a unit is expected) a text with a number and a unit.
+/// A formula, a number, or (if a unit is expected) a text with a number and a unit, or a table.
 std::optional<Expression> read_formula(Value const& value, std::string_view unit, Names const& names,
                                        Problems& problems);
+/// The part of read_formula() for a table such as { table = [[0, 0], ["1 ms", "5 kN"]] } or { file = "force.csv" }.
+std::optional<Expression> read_table(Value const& value, std::string_view unit, Names const& names, Problems& problems);
 /// The items of a list whose length is between `least` and `most`; nothing if it is no such list.
 std::optional<std::vector<Value>> read_list(Value const& value, std::size_t least, std::size_t most,
                                             Problems& problems);

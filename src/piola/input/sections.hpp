@@ -96,6 +96,10 @@ RigidSpec read_rigid(Section const& section, BodyNames const& names);
 void read_rigid_motion(Section const& section, BodyNames const& names, RigidSpec& rigid);
 /// The part of read_rigid() for the key `inertia` of a free shape in 2D or 3D.
 void read_inertia(Section const& section, int dimension, RigidSpec& rigid);
+/// `names`: of the case; `rigids`: the shapes that a spring may name.
+SpringSpec read_spring(Section const& section, BodyNames const& names, std::vector<RigidSpec> const& rigids);
+/// Springs have columns whether they are named or not.
+void name_springs(std::vector<SpringSpec>& springs);
 /// Reads the rule for all bodies and those of pairs: a table, a list of tables, or "none".
 void read_contact(Value const& value, int dimension, Problems& problems, CaseSpec& spec);
 /// `rigids`: the rigid shapes that a tie may name.

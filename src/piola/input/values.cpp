@@ -135,6 +135,7 @@ std::optional<Expression> read_formula(Value const& value, std::string_view unit
     if (!number) return std::nullopt;
     return Expression(exact_text(*number));
   }
+  if (value.node.is_table() && !unit.empty()) return read_table(value, unit, names, problems);
   if (!value.node.is_text()) {
     complain(value, "is " + shown(value.node) + " (allowed: a formula in quotes, or a number)", problems);
     return std::nullopt;

@@ -7,7 +7,7 @@
 
 namespace piola {
 
-/// A rigid shape: an obstacle at rest or driven, or a free body that moves by contact.
+/// A rigid shape: an obstacle at rest or driven, or a free body that moves by contact, forces and springs.
 struct RigidShape {
   enum class Kind { plane, sphere, cylinder, box };
   using Point = std::array<double, 3>;
@@ -27,8 +27,12 @@ struct RigidShape {
   /// m]. Empty: of the homogeneous shape.
   std::optional<std::array<double, 6>> inertia;
   std::array<Expression, 3> gravity;  ///< of a free body: acceleration as a function of t [m/s2]
-  std::array<bool, 3> held{};         ///< of a free body: directions in which it keeps its initial velocity
-  bool can_turn = true;               ///< of a free body
+  /// Force on the centre of a free body [N] and torque about it [N m], as functions of t; in 2D per length.
+  std::array<Expression, 3> force, torque;
+  enum class TorqueAxes { space, body };
+  TorqueAxes torque_axes = TorqueAxes::space;  ///< body: they rotate with the body, and are x, y, z at the start
+  std::array<bool, 3> held{};                  ///< of a free body: directions in which it keeps its initial velocity
+  bool can_turn = true;                        ///< of a free body
 
   /// Whether it rotates, or may rotate by contact.
   bool turns() const {

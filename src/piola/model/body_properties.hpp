@@ -40,9 +40,6 @@ double step_estimate(CaseSpec const& spec, std::vector<BodyProperties> const& fa
 /// input/plausibility.hpp, one sentence each with its place in the file. `step` is the expected time step [s].
 void find_implausible_values(CaseSpec const& spec, ParticleSet const& particles,
                              std::vector<BodyProperties> const& facts, double step, Problems& slips);
-/// Whether an expression is a formula that may be evaluated at any time; a function of a program that uses the library
-/// is not, because its author may count the calls. Determined from its text, in which functions are described in words.
-bool is_formula(Expression const& expression);
 /// The part of find_implausible_values() for loads, driven supports and driven shapes.
 void find_implausible_loads(CaseSpec const& spec, ParticleSet const& particles,
                             std::vector<BodyProperties> const& facts, Problems& slips);

@@ -115,6 +115,9 @@ void check_rigids(CaseSpec const& spec, Problems& problems) {
       problems.add(place, axisymmetric + "and " + name +
                               " moves along the radius (allowed: along y) - set the first "
                               "component of its velocity to 0");
+    if (!is_zero(rigid.force[0]))
+      problems.add(place, axisymmetric + "and a force on " + name +
+                              " acts along the radius (allowed: along y) - set its first component to 0");
   }
 }
 

@@ -67,6 +67,8 @@ void check_rigid(CaseSpec const& spec, ParticleSet const& particles, Problems& p
     check_formulas(rigid, "velocity", rigid.velocity, problems);
     check_formulas(rigid, "angular_velocity", rigid.angular_velocity, problems);
     check_formulas(rigid, "gravity", rigid.gravity, problems);
+    check_formulas(rigid, "force", rigid.force, problems);
+    check_formulas(rigid, "torque", rigid.torque, problems);
     for (std::size_t b = 0; b < spec.bodies.size(); ++b)
       check_overlap(rigid, spec.bodies[b], particles, particles.bodies[b], problems);
   }

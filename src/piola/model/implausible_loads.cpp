@@ -13,7 +13,9 @@ namespace {
 
 using Components = std::array<Expression, 3>;
 
-bool are_formulas(Components const& value) { return std::all_of(value.begin(), value.end(), is_formula); }
+bool hold_anywhere(Components const& value) {
+  return std::all_of(value.begin(), value.end(), [](Expression const& e) { return e.holds_anywhere(); });
+}
 
 /// Times at which formulas are evaluated [s]: 33 equal steps up to `last`, and halves of its first, for short pulses.
 std::vector<double> times_until(double last) {
@@ -36,7 +38,7 @@ LookedAt look_at_vector(Components const& value, ParticleSet const& particles, s
   bool const moves = std::any_of(value.begin(), value.end(), [](auto const& v) { return v.depends_on_time(); });
   auto const times = moves ? times_until(last) : std::vector<double>{0};
   LookedAt looked;
-  if (!are_formulas(value)) return looked;
+  if (!hold_anywhere(value)) return looked;
   for (std::size_t k = 0; k < ids.size(); k += std::max<std::size_t>(1, ids.size() / most)) {
     auto const& X = particles.X[static_cast<std::size_t>(ids[k])];
     for (double const t : times) {
@@ -94,18 +96,6 @@ void check_drive(LookedAt const& looked, double wave, std::string const& subject
 }
 
 }  // namespace
-
-bool is_formula(Expression const& expression) {
-  Names names;
-  for (std::string const& word : expression_words(expression.text()))
-    if (!is_reserved_name(word)) names.constants[word] = 1;
-  try {
-    static_cast<void>(Expression(expression.text(), names));
-  } catch (ExpressionError const&) {
-    return false;
-  }
-  return true;
-}
 
 void find_implausible_loads(CaseSpec const& spec, ParticleSet const& particles,
                             std::vector<BodyProperties> const& facts, Problems& slips) {

@@ -126,7 +126,7 @@ bool has_moving_boundary(CaseSpec const& spec) {
                                                   [](SupportSpec const& support) { return support.velocity; });
   // The formula that is left out is the constant 0.
   for (RigidSpec const& rigid : spec.rigids)
-    for (auto const* formulas : {&rigid.velocity, &rigid.angular_velocity, &rigid.gravity})
+    for (auto const* formulas : {&rigid.velocity, &rigid.angular_velocity, &rigid.gravity, &rigid.force, &rigid.torque})
       moves = moves || std::any_of(formulas->begin(), formulas->end(),
                                    [](Expression const& component) { return component.text() != "0"; });
   return moves;

@@ -83,7 +83,7 @@ void refuse_shared_names(std::vector<ColumnOwner> const& owners) {
       a.section.problems().add(
           a.section.place_of("name"),
           "the name " + in_quotes(a.name) + " is taken by a " + b.kind +
-              " (allowed: one name for one support, load, rigid shape, tie or probe) - choose another "
+              " (allowed: one name for one support, load, rigid shape, spring, tie or probe) - choose another "
               "name");
       break;
     }
@@ -185,7 +185,11 @@ void read_bodies(Section const& top, Names const& common, CaseSpec& spec, std::v
   check_size(sections, spec, limits);
 }
 
-void read_head(Section const& top, CaseSpec& spec) {
+void read_head(Document const& document, Section const& top, CaseSpec& spec) {
+  spec.source = document.source;
+  spec.old_spellings = document.old_spellings;
+  spec.named_files = files_named_in(document.root);
+  if (auto const run = top.table("run")) read_run(*run, spec.run);
   spec.axisymmetric = top.word_index("geometry") == 1;
   std::string& title = spec.title;
   top.read("title", title);
@@ -195,17 +199,20 @@ void read_head(Section const& top, CaseSpec& spec) {
                                  count_text(static_cast<std::int64_t>(title.size())), longest_title));
 }
 
-void read_rigids(std::vector<Section> const& sections, BodyNames const& names, CaseSpec& spec) {
-  for (Section const& section : sections) spec.rigids.push_back(read_rigid(section, names));
+/// Rigid shapes and their springs.
+void read_rigids(std::vector<Section> const& shapes, std::vector<Section> const& springs, BodyNames const& names,
+                 CaseSpec& spec) {
+  for (Section const& section : shapes) spec.rigids.push_back(read_rigid(section, names));
+  for (Section const& section : springs) spec.springs.push_back(read_spring(section, names, spec.rigids));
+  name_springs(spec.springs);
 }
+
+/// Title, geometry and [run], and what the document itself tells.
 
 CaseSpec read_document(Document const& document, Problems& problems, ReadLimits const& limits) {
   Section const top(document.root, "", problems);
   CaseSpec spec;
-  spec.source = document.source;
-  spec.old_spellings = document.old_spellings;
-  read_head(top, spec);
-  if (auto const run = top.table("run")) read_run(*run, spec.run);
+  read_head(document, top, spec);
   std::vector<BodyNames> names;
   std::map<std::string, double> constants;
   if (auto const value = top.find("constants")) constants = read_constants(*value, top.problems());
@@ -217,8 +224,8 @@ CaseSpec read_document(Document const& document, Problems& problems, ReadLimits 
   for (Section const& section : tables_of(top, "mirror")) spec.mirrors.push_back(read_mirror(section, names));
   for (Section const& section : tables_of(top, "crack")) spec.cracks.push_back(read_crack(section, names));
   int const dimension = names.empty() ? 3 : names.front().dimension;
-  std::vector<Section> const rigids = tables_of(top, "rigid");
-  read_rigids(rigids, {"", dimension, spec.axisymmetric, {}, {constants, {}}}, spec);
+  std::vector<Section> const rigids = tables_of(top, "rigid"), springs = tables_of(top, "spring");
+  read_rigids(rigids, springs, {"", dimension, spec.axisymmetric, {}, {constants, {}}}, spec);
   if (auto const contact = top.find("contact")) read_contact(*contact, dimension, problems, spec);
   std::vector<Section> const ties = tables_of(top, "tie");
   for (Section const& section : ties) spec.ties.push_back(read_tie(section, names, spec.rigids));
@@ -229,6 +236,7 @@ CaseSpec read_document(Document const& document, Problems& problems, ReadLimits 
   add_owners(owners, supports, spec.supports, "support");
   add_owners(owners, loads, spec.loads, "load");
   add_owners(owners, rigids, spec.rigids, "rigid shape");
+  add_owners(owners, springs, spec.springs, "spring");
   add_owners(owners, ties, spec.ties, "tie");
   add_owners(owners, probes, spec.probes, "probe");
   refuse_shared_names(owners);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/cloud_checks.hpp"
 #include "piola/base/contracts.hpp"
+#include "piola/base/csv.hpp"
 #include "piola/base/text.hpp"
 #include <algorithm>
 #include <cmath>
@@ -137,7 +138,7 @@ void note_density(PointCloud& cloud, std::vector<CloudMoment> const& moments, Cl
 
 void check_cloud_numbers(PointCloud const& cloud, CloudSource const& source, std::vector<std::string>& problems) {
   PIOLA_EXPECTS(source.row.size() == cloud.X.size());
-  CloudProblems list(source.file, problems);
+  CsvProblems list(source.file, problems);
   auto const check_volume = [&](std::size_t i, double volume, std::string_view name) {
     if (volume > 0 && std::isfinite(volume)) return;
     list.add(fmt::format("{}: the {} is {} {} (expected a positive number) - correct or remove the row",

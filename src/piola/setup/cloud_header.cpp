@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/cloud_header.hpp"
 #include "piola/base/contracts.hpp"
+#include "piola/base/csv.hpp"
 #include "piola/base/text.hpp"
 #include "piola/base/units.hpp"
 #include <algorithm>
@@ -10,13 +11,6 @@ namespace piola {
 namespace {
 
 constexpr std::string_view cloud_example = "such as \"x [mm],y [mm],z [mm],volume [mm^3]\"";
-
-/// The end of a text in quotation marks that starts at `from`: the mark that is not followed by another one.
-std::size_t closing_mark(std::string_view line, std::size_t from) {
-  std::size_t at = line.find('"', from + 1);
-  while (at != std::string_view::npos && at + 1 < line.size() && line[at + 1] == '"') at = line.find('"', at + 2);
-  return at;
-}
 
 CloudColumn meaning_of(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(),
@@ -30,21 +24,6 @@ bool is_cloud_volume(CloudColumn column) {
   return column == CloudColumn::volume || column == CloudColumn::kernel_volume;
 }
 
-/// A title such as "volume [mm^3]".
-struct CloudTitle {
-  std::string_view name;
-  std::string_view unit;  ///< empty: none is given
-  bool broken = false;    ///< a bracket without the other
-};
-
-CloudTitle title_of_field(std::string_view text) {
-  std::size_t const open = text.find('[');
-  if (open == std::string_view::npos) return {text, {}, text.find(']') != std::string_view::npos};
-  bool const closed = text.ends_with(']');
-  std::string_view const unit = without_blanks(text.substr(open + 1, text.size() - open - (closed ? 2 : 1)));
-  return {without_blanks(text.substr(0, open)), unit, !closed || unit.empty()};
-}
-
 /// Reads a header, title by title.
 class CloudHeaderReader {
  public:
@@ -53,11 +32,11 @@ class CloudHeaderReader {
 
   CloudHeader read(std::string_view text) {
     header_.separator = text.find(';') != std::string_view::npos ? ';' : ',';
-    if (std::size_t const mark = cut_cloud_line(text, header_.separator, fields_); mark > 0) {
+    if (std::size_t const mark = cut_csv_line(text, header_.separator, fields_); mark > 0) {
       add(mark, "the quotation mark is not closed - close it");
       return header_;
     }
-    for (CloudField const& field : fields_) titles_.push_back(title_of_field(field.text));
+    for (CsvField const& field : fields_) titles_.push_back(title_of_field(field.text));
     if (begins_with_numbers()) return header_;
     for (std::size_t k = 0; k < fields_.size(); ++k) take(k);
     int const dimension = count_components();
@@ -111,7 +90,7 @@ class CloudHeaderReader {
 
   void take_units(int dimension) {
     std::size_t with = 0, without = 0;
-    CloudTitle bare;
+    CsvTitle bare;
     for (std::size_t k = 0; k < titles_.size(); ++k) {
       CloudColumn const column = header_.columns[k];
       bool const measured = is_cloud_length(column) || is_cloud_volume(column);
@@ -149,30 +128,11 @@ class CloudHeaderReader {
   std::vector<std::string>& problems_;
   std::size_t before_;
   CloudHeader header_;
-  std::vector<CloudField> fields_;
-  std::vector<CloudTitle> titles_;
+  std::vector<CsvField> fields_;
+  std::vector<CsvTitle> titles_;
 };
 
 }  // namespace
-
-std::size_t cut_cloud_line(std::string_view line, char separator, std::vector<CloudField>& fields) {
-  PIOLA_EXPECTS(separator != '"');
-  fields.clear();
-  for (std::size_t at = 0; at <= line.size();) {
-    std::size_t const start = std::min(line.find_first_not_of(" \t", at), line.size());
-    std::size_t from = at;
-    if (start < line.size() && line[start] == '"') {
-      from = closing_mark(line, start);
-      if (from == std::string_view::npos) return start + 1;
-    }
-    std::size_t const end = std::min(line.find(separator, from), line.size());
-    std::string_view text = without_blanks(line.substr(at, end - at));
-    if (text.size() > 1 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
-    fields.push_back({text, std::min(start, end) + 1});
-    at = end + 1;
-  }
-  return 0;
-}
 
 CloudHeader read_cloud_header(std::string_view text, std::string const& place, double length_unit,
                               std::vector<std::string>& problems) {

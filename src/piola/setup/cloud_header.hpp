@@ -8,15 +8,6 @@
 
 namespace piola {
 
-/// One field of a line of a table.
-struct CloudField {
-  std::string_view text;   ///< without blanks around it and without its quotation marks
-  std::size_t column = 1;  ///< of its first character in the line
-};
-
-/// Cuts a line into its fields. Returns the column of a quotation mark that is not closed, or 0.
-std::size_t cut_cloud_line(std::string_view line, char separator, std::vector<CloudField>& fields);
-
 /// Meaning of a column of a table. The first three are components of a position.
 enum class CloudColumn { x, y, z, volume, kernel_volume, body, unused };
 

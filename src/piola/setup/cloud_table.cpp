@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/setup/cloud_table.hpp"
 #include "piola/base/contracts.hpp"
+#include "piola/base/csv.hpp"
 #include "piola/base/text.hpp"
 #include "piola/setup/cloud_header.hpp"
 #include <algorithm>
-#include <charconv>
 #include <fmt/format.h>
 #include <functional>
 #include <map>
@@ -12,60 +12,14 @@
 namespace piola {
 namespace {
 
-constexpr std::int64_t most_cloud_lines = 5;  // of problems of one kind; a file may have as many as rows
-
-struct CloudNumber {
-  double value = 0;
-  std::string problem;  ///< empty: none
-};
-
-CloudNumber read_cloud_number(std::string_view text) {
-  std::string_view digits = text;
-  if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
-  CloudNumber number;
-  auto const [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number.value);
-  if (error == std::errc::result_out_of_range) {
-    number.problem =
-        in_quotes(text) + " cannot be held as a number (at most 1.8e308, at least 5e-324) - correct or remove the row";
-  } else if (error != std::errc() || end != digits.data() + digits.size()) {
-    number.problem = in_quotes(text) + " is not a number (expected one such as 0.0015) - correct or remove the row";
-  }
-  return number;
-}
-
-/// The lines of a text, without their ends, that hold something else than blanks and comments.
-class CloudLines {
- public:
-  explicit CloudLines(std::string_view text) : rest_(text) {}
-  /// Steps to the next such line; false at the end.
-  bool next() {
-    while (!rest_.empty()) {
-      std::size_t const end = std::min(rest_.find('\n'), rest_.size());
-      line_ = rest_.substr(0, end);
-      rest_.remove_prefix(std::min(end + 1, rest_.size()));
-      ++number_;
-      if (line_.ends_with('\r')) line_.remove_suffix(1);
-      std::size_t const first = line_.find_first_not_of(" \t");
-      if (first != std::string_view::npos && line_[first] != '#') return true;
-    }
-    return false;
-  }
-  std::string_view line() const { return line_; }
-  std::int64_t number() const { return number_; }
-
- private:
-  std::string_view rest_, line_;
-  std::int64_t number_ = 0;
-};
-
 /// Takes the rows of a table, one after the other.
 class CloudRows {
  public:
-  CloudRows(CloudHeader const& header, CloudTable& table, CloudProblems& problems)
+  CloudRows(CloudHeader const& header, CloudTable& table, CsvProblems& problems)
       : header_(header), table_(table), problems_(problems) {}
 
   void take(std::string_view line, std::int64_t number) {
-    if (std::size_t const mark = cut_cloud_line(line, header_.separator, fields_); mark > 0)
+    if (std::size_t const mark = cut_csv_line(line, header_.separator, fields_); mark > 0)
       return add(number, mark, "the quotation mark is not closed - close it");
     if (fields_.size() != header_.columns.size()) return refuse_count(number);
     std::array<double, 6> values{};
@@ -74,7 +28,7 @@ class CloudRows {
       CloudColumn const column = header_.columns[k];
       if (column == CloudColumn::body) body = fields_[k].text;
       if (column >= CloudColumn::body) continue;
-      CloudNumber const found = read_cloud_number(fields_[k].text);
+      CsvNumber const found = read_csv_number(fields_[k].text);
       if (!found.problem.empty()) return add(number, fields_[k].column, found.problem);
       values[static_cast<std::size_t>(column)] = found.value * header_.factor[k];
     }
@@ -117,19 +71,10 @@ class CloudRows {
 
   CloudHeader const& header_;
   CloudTable& table_;
-  CloudProblems& problems_;
-  std::vector<CloudField> fields_;
+  CsvProblems& problems_;
+  std::vector<CsvField> fields_;
   std::map<std::string, int, std::less<>> known_;
 };
-
-/// Refuses texts that are no table, whatever their lines contain.
-std::string refuse_text(std::string_view text) {
-  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-    return "is a text in UTF-16 (expected UTF-8) - save it as \"CSV UTF-8\"";
-  if (text.find('\0') != std::string_view::npos)
-    return "is no text (it holds a NUL byte) - give a CSV file, or a frame whose name ends in .hdf";
-  return {};
-}
 
 }  // namespace
 
@@ -143,25 +88,17 @@ std::string CloudSource::name(std::size_t point) const {
   return fmt::format("{} {}", lines ? "line" : "particle", row[point]);
 }
 
-void CloudProblems::add(std::string text) {
-  if (++count_ <= most_cloud_lines) list_.push_back(std::move(text));
-}
-
-CloudProblems::~CloudProblems() {
-  if (count_ > most_cloud_lines)
-    list_.push_back(fmt::format("{}: {} more such problems", file_, count_text(count_ - most_cloud_lines)));
-}
-
 CloudTable read_cloud_table(std::string_view text, std::string const& name, double length_unit,
                             std::vector<std::string>& problems) {
   CloudTable table;
   table.source.file = name;
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  if (std::string const wrong = refuse_text(text); !wrong.empty()) {
+  text = without_byte_order_mark(text);
+  if (std::string const wrong = refuse_csv_text(text, "give a CSV file, or a frame whose name ends in .hdf");
+      !wrong.empty()) {
     problems.push_back(name + ": " + wrong);
     return table;
   }
-  CloudLines lines(text);
+  CsvLines lines(text);
   if (!lines.next()) {
     problems.push_back(name +
                        ": is empty (expected a header such as \"x [mm],y [mm],z [mm]\" and a row for each "
@@ -174,7 +111,7 @@ CloudTable read_cloud_table(std::string_view text, std::string const& name, doub
   if (header.dimension == 0) return table;
   if (!header.not_used.empty())
     table.notes.push_back(fmt::format("{}: columns that are not used: {}", name, in_quotes(joined(header.not_used))));
-  CloudProblems of_rows(name, problems);
+  CsvProblems of_rows(name, problems);
   CloudRows rows(header, table, of_rows);
   while (lines.next()) rows.take(lines.line(), lines.number());
   return table;

@@ -31,21 +31,6 @@ struct CloudTable {
   std::vector<std::string> notes;
 };
 
-/// Adds problems of single places: the first few in words, then how many more there are.
-class CloudProblems {
- public:
-  CloudProblems(std::string file, std::vector<std::string>& list) : file_(std::move(file)), list_(list) {}
-  CloudProblems(CloudProblems const&) = delete;
-  CloudProblems& operator=(CloudProblems const&) = delete;
-  ~CloudProblems();
-  void add(std::string text);
-
- private:
-  std::string file_;
-  std::vector<std::string>& list_;
-  std::int64_t count_ = 0;
-};
-
 /// Reads a table of points. `length_unit` [m] counts where the header gives no units.
 CloudTable read_cloud_table(std::string_view text, std::string const& name, double length_unit,
                             std::vector<std::string>& problems);

@@ -307,6 +307,7 @@ Assembly assemble(CaseSpec const& spec, ParticleSet particles) {
   for (std::size_t b = 0; b < a.particles.bodies.size(); ++b)
     if (touches_axis(a.particles, a.particles.bodies[b])) a.mirrors.push_back({b, 0, false, false});
   a.rigid_shapes.assign(spec.rigids.begin(), spec.rigids.end());
+  a.springs.assign(spec.springs.begin(), spec.springs.end());
   if (spec.contact) a.contact = *spec.contact;
   a.contact_pairs.assign(spec.contact_pairs.begin(), spec.contact_pairs.end());
   a.ties.assign(spec.ties.begin(), spec.ties.end());

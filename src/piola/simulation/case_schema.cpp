@@ -61,6 +61,12 @@ Json list_of(Json items, int least, int most) {
   return {{"type", "array"}, {"items", std::move(items)}, {"minItems", least}, {"maxItems", most}};
 }
 
+/// A formula; a table, too, if its value has a unit.
+Json formula_schema(KeyInfo const& info, Json types) {
+  Json formula{{"type", std::move(types)}};
+  return info.unit.empty() ? formula : Json{{"anyOf", {std::move(formula), reference_to("table")}}};
+}
+
 /// Allowed values of a key, except words.
 Json value_schema(KeyInfo const& info) {
   using enum KeyInfo::Kind;
@@ -76,8 +82,8 @@ Json value_schema(KeyInfo const& info) {
     }
     case flag: return {{"type", "boolean"}};
     case point: return list_of(number_or_text(info.allowed), 1, 3);
-    case formula: return {{"type", {"string", "number"}}};
-    case formulas: return {{"type", "array"}, {"items", {{"type", {"string", "number", "array"}}}}};
+    case formula: return formula_schema(info, {"string", "number"});
+    case formulas: return {{"type", "array"}, {"items", formula_schema(info, {"string", "number", "array"})}};
     case list: return section_of(info).empty() ? Json{{"type", "array"}} : table_schema(info);
     case table: return table_schema(info);
   }

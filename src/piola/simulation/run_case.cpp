@@ -103,6 +103,7 @@ void keep_files(CaseSpec const& spec, std::filesystem::path const& results, RunL
 /// Starts a new run: removes older results from the folder, saves the case, and observes the first state.
 TimeState begin_new(Simulation& s, RunOptions const& options, RunLog& journal, RunObservers& observers) {
   journal.note(start_text(s));
+  for (std::string const& note : notes_of_tables(s.spec)) journal.note(note);
   if (observers.written)
     comm::on_root([&] {
       write_whole_file(options.folder / "case.toml", s.spec.source);

@@ -57,9 +57,11 @@ double half_diagonal(ParticleSet const& particles) {
 
 /// Whether nothing but bodies and other shapes act on a rigid shape.
 bool is_left_alone(RigidSpec const& rigid) {
-  bool const weightless = std::all_of(rigid.gravity.begin(), rigid.gravity.end(),
-                                      [](Expression const& component) { return component.text() == "0"; });
-  return rigid.free && weightless && rigid.can_turn && rigid.held == std::array<bool, 3>{};
+  auto const is_none = [](std::array<Expression, 3> const& formulas) {
+    return std::all_of(formulas.begin(), formulas.end(), [](Expression const& e) { return e.text() == "0"; });
+  };
+  return rigid.free && is_none(rigid.gravity) && is_none(rigid.force) && is_none(rigid.torque) && rigid.can_turn &&
+         rigid.held == std::array<bool, 3>{};
 }
 
 /// The largest rho c^2 of the bodies, with the speed c of pressure waves at rest [Pa].
@@ -87,7 +89,7 @@ void add_conservation(Summary& summary, HistoryTable const& history, Simulation 
   double const arm = half_diagonal(s.particles);
   summary.scales = {{"kg m/s", momentum}, {"kg m^2/s", momentum * arm}, {"Pa", wave_modulus(s)}};
   bool const free = s.spec.supports.empty() && s.spec.loads.empty() && s.spec.mirrors.empty() &&
-                    std::all_of(s.spec.rigids.begin(), s.spec.rigids.end(), is_left_alone);
+                    s.spec.springs.empty() && std::all_of(s.spec.rigids.begin(), s.spec.rigids.end(), is_left_alone);
   if (!free) return;
   summary.linear_drift = momentum > 0 ? drift(history, "linear_momentum") / momentum : 0;
   summary.angular_drift = momentum > 0 && arm > 0 ? drift(history, "angular_momentum") / (momentum * arm) : 0;

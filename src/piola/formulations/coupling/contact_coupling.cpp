@@ -182,8 +182,10 @@ void ContactCoupling::begin(Formulations const& formulations, double time, doubl
   actions_.begin(dt);
   pair_impulses_.clear();
   ties_.begin();
+  motion_.springs().begin();
   last_dt_ = dt;
   apply_impulses(formulations, time, 0.5 * dt);
+  motion_.kick_by_dashpots(system_, 0.5 * dt, false);
   motion_.move(system_.rigids(), time, dt);
   for (std::size_t r = 0; r < shapes_.size(); ++r) actions_.rigid_about[r] = array_of(system_.rigid(r).centre);
 }
@@ -200,6 +202,7 @@ void ContactCoupling::finish(Formulations const& formulations, double time, doub
   colours_.evaluate(particles_.x(), particles_.masses());
   sum_forces();
   friction_work_ += system_.totals().friction_work + motion_.between_shapes().friction_work;
+  motion_.kick_by_dashpots(system_, 0.5 * dt, true);
   apply_impulses(formulations, time, 0.5 * dt);
   damp_chatter(formulations, time);
   closing_ = contact_time_step();
@@ -214,7 +217,10 @@ double ContactCoupling::limit(double step) const {
 StepBound ContactCoupling::bound(StepBound of_bodies) const {
   double const step = limit(of_bodies.step), alone = limit(std::numeric_limits<double>::infinity());
   if (!(step < of_bodies.step)) return of_bodies;
-  if (step == closing_) return {.step = step, .text = "the approach of surfaces"};
+  if (step == closing_)
+    return {.step = step,
+            .text = motion_.springs().any() ? "the approach of surfaces, or the springs of rigid shapes"
+                                            : "the approach of surfaces"};
   if (alone < of_bodies.step) return {.step = step, .text = "the stiffness of contact and ties"};
   of_bodies.step = step;
   of_bodies.text += ", and the stiffness of contact and ties";
@@ -235,6 +241,11 @@ std::vector<Action> ContactCoupling::pairs() const {
       all.push_back({names_[a] + "-" + names_[b], array_of(scale * sum.force), array_of(scale * sum.moment)});
     }
   ties_.add_actions(scale, all);
+  contact::RigidSprings const& springs = motion_.springs();
+  for (std::size_t s = 0; s < springs.springs().size(); ++s) {
+    contact::ForceMoment const& sum = springs.impulses()[s];
+    all.push_back({springs.springs()[s].name, array_of(scale * sum.force), array_of(scale * sum.moment)});
+  }
   return all;
 }
 
@@ -243,16 +254,18 @@ void ContactCoupling::report(Diagnostics& sum) const {
   contact::RigidPairs::Totals const& between = motion_.between_shapes();
   now.energy += between.energy + colours_.totals().energy;
   now.spring_energy += between.spring_energy;
-  double const stored = now.energy + now.spring_energy + ties_.energy(), moving = motion_.kinetic_energy();
+  contact::RigidSprings const& springs = motion_.springs();
+  double const stored = now.energy + now.spring_energy + ties_.energy() + springs.energy(),
+               moving = motion_.kinetic_energy();
   sum.strain_energy += stored;
   sum.kinetic_energy += moving;
   for (auto& [name, value] : sum.more)
     if (name == "centred_energy") value += stored + moving;  // the sum that does not rise
   sum.external_work += work_ + motion_.work();
-  sum.damping_loss += motion_.damping_loss();
-  for (int c = 0; c < 3; ++c) {
-    sum.linear_momentum[static_cast<std::size_t>(c)] += motion_.linear_momentum()[c];
-    sum.angular_momentum[static_cast<std::size_t>(c)] += motion_.angular_momentum()[c];
+  sum.damping_loss += motion_.damping_loss() + springs.dashpot_loss();
+  for (std::size_t c = 0; c < 3; ++c) {
+    sum.linear_momentum[c] += motion_.linear_momentum().c[c];
+    sum.angular_momentum[c] += motion_.angular_momentum().c[c];
   }
   sum.rigids = rigids();
   auto const column = [&](char const* name) -> double& {
@@ -267,6 +280,8 @@ void ContactCoupling::report(Diagnostics& sum) const {
   column("chatter_damping_loss") = chatter_loss_;
   column("contact_points") = static_cast<double>(now.touched) + between.touched + colours_.totals().touched;
   ties_.report(sum);
+  if (springs.any())
+    sum.more.insert(sum.more.end(), {{"spring_energy", springs.energy()}, {"dashpot_loss", springs.dashpot_loss()}});
   auto const named = [&](std::size_t k) {
     return k < names_.size() ? "body " + in_quotes(names_[k])
                              : "the rigid shape " + in_quotes(shapes_[k - names_.size()].name);

@@ -126,7 +126,7 @@ contact::RigidMotion motion_of(Assembly const& whole) {
     double const k = contact::penalty_stiffness(1, 0.5 * whole.contact.scale, surface.modulus, surface.spacing);
     if (k > between.stiffness) between = {k, surface.spacing, whole.contact.friction};
   }
-  return {whole.rigid_shapes, whole.particles.dimension, between};
+  return {whole.rigid_shapes, whole.particles.dimension, between, whole.springs};
 }
 
 /// Largest fraction of the friction heat for chatter damping, by body. Zero with mirror planes, because half of a

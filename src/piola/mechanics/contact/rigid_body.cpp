@@ -49,10 +49,11 @@ Vec<3> RigidBody::free_part(Vec<3> impulse) const {
   return impulse;
 }
 
-void RigidBody::kick(Vec<3> const& impulse, Vec<3> const& moment) {
-  velocity = velocity + (1 / mass_) * free_part(impulse);
-  if (!can_turn_) return;
-  spin = dimension_ == 3 ? spin + moment : Vec<3>{{0, 0, spin[2] + moment[2]}};
+double RigidBody::kick(Vec<3> const& impulse, Vec<3> const& moment) {
+  Vec<3> const before = velocity, used = free_part(impulse);
+  velocity = velocity + (1 / mass_) * used;
+  if (can_turn_) spin = dimension_ == 3 ? spin + moment : Vec<3>{{0, 0, spin[2] + moment[2]}};
+  return 0.5 * dot(used - impulse, before + velocity);
 }
 
 void RigidBody::turn_about_own_axis(int k, double h) {

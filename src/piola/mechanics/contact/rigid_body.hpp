@@ -26,8 +26,9 @@ class RigidBody {
 
   /// The part of an impulse [N s] in free directions.
   Vec<3> free_part(Vec<3> impulse) const;
-  /// Applies an impulse [N s] and its moment about the centre [N m s].
-  void kick(Vec<3> const& impulse, Vec<3> const& moment);
+  /// Applies an impulse [N s] and its moment about the centre [N m s]. Returns the work of what keeps held directions
+  /// from changing their velocity [J].
+  double kick(Vec<3> const& impulse, Vec<3> const& moment);
   /// Advances the pose by h [s]: rotations about the body axes z y x y z, all but x in halves, each at the rate of L
   /// about it. Reversible.
   void drift(double h);

@@ -21,8 +21,9 @@ Vec<3> value_at(std::array<Expression, 3> const& formulas, double time) {
 
 }  // namespace
 
-RigidMotion::RigidMotion(std::vector<RigidShape> const& shapes, int dimension, RigidPairs::Setting const& between)
-    : dimension_(dimension), pairs_(shapes, dimension, between) {
+RigidMotion::RigidMotion(std::vector<RigidShape> const& shapes, int dimension, RigidPairs::Setting const& between,
+                         std::vector<RigidSpring> springs)
+    : dimension_(dimension), pairs_(shapes, dimension, between), springs_(std::move(springs), shapes) {
   PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
   for (RigidShape const& given : shapes) {
     Shape shape{given, vector_of(given.axis), {}, {}, 0, value_at(given.angular_velocity, 0)};
@@ -74,11 +75,13 @@ void RigidMotion::move(std::vector<RigidSurface>& surfaces, double time, double 
   place(surfaces);
 }
 
-/// Bound over springs between shapes and springs to points of bodies.
+/// Bound over springs of shapes, contact between shapes, and contact with points of bodies.
 void RigidMotion::bound_frequency(SurfaceContactSystem const& bodies) {
   std::vector<double> of_shapes;
   for (std::size_t k = 0; k < shapes_.size(); ++k) of_shapes.push_back(bodies.frequencies(k).of_shape);
+  springs_.add_frequencies2(bodies.rigids(), of_shapes);
   frequency2_ = pairs_.frequency2(of_shapes);
+  frequency2_ = std::max(frequency2_, springs_.frequency2(of_shapes));
   for (std::size_t k = 0; k < shapes_.size(); ++k)
     if (shapes_[k].body) frequency2_ = std::max(frequency2_, bodies.frequencies(k).of_points + of_shapes[k]);
   of_shapes_ = of_shapes.empty() ? 0 : *std::max_element(of_shapes.begin(), of_shapes.end());
@@ -87,12 +90,14 @@ void RigidMotion::bound_frequency(SurfaceContactSystem const& bodies) {
 void RigidMotion::start(SurfaceContactSystem const& bodies) {
   PIOLA_EXPECTS(bodies.rigids().size() == shapes_.size());
   pairs_.start(bodies.rigids());
+  springs_.evaluate(bodies.rigids());
   bound_frequency(bodies);
 }
 
 void RigidMotion::evaluate(SurfaceContactSystem const& bodies, double dt) {
   PIOLA_EXPECTS(bodies.rigids().size() == shapes_.size());
   pairs_.evaluate(bodies.rigids(), dt);
+  springs_.evaluate(bodies.rigids());
   bound_frequency(bodies);
 }
 
@@ -106,15 +111,33 @@ RigidPairs::Load RigidMotion::on(SurfaceContactSystem const& bodies, std::size_t
 void RigidMotion::kick(SurfaceContactSystem& bodies, double time, double half) {
   for (std::size_t k = 0; k < shapes_.size(); ++k) {
     if (!shapes_[k].body) continue;
-    RigidBody& body = *shapes_[k].body;
     RigidPairs::Load const load = on(bodies, k);
-    Vec<3> const weight = (half * body.mass()) * value_at(shapes_[k].given.gravity, time);
-    Vec<3> const impulse = half * load.force + weight, before = body.velocity;
-    body.kick(impulse, half * load.moment);
-    // The part of the impulse in held directions is returned.
-    Vec<3> const outside = weight + body.free_part(impulse) - impulse;
-    work_ += 0.5 * dot(outside, before + body.velocity);
+    work_ += shapes_[k].body->kick(half * load.force, half * load.moment);
+    act(shapes_[k], time, half);
   }
+  work_ += springs_.kick_by_springs(bodies.rigids(), free_bodies(), half);
+  place(bodies.rigids());
+}
+
+/// Applies gravity, force and torque to a free shape.
+void RigidMotion::act(Shape& shape, double time, double half) {
+  RigidBody& body = *shape.body;
+  RigidShape const& given = shape.given;
+  Vec<3> const impulse = half * (body.mass() * value_at(given.gravity, time) + value_at(given.force, time));
+  Vec<3> moment = half * value_at(given.torque, time);
+  if (given.torque_axes == RigidShape::TorqueAxes::body) moment = matrix_of(body.turn) * moment;
+  Vec<3> const before = body.velocity, rate = body.angular_velocity();
+  work_ += body.kick(impulse, moment);
+  work_ += 0.5 * (dot(impulse, before + body.velocity) + dot(moment, rate + body.angular_velocity()));
+}
+
+RigidSprings::BodyOf RigidMotion::free_bodies() {
+  return [this](std::size_t k) { return shapes_[k].body ? &*shapes_[k].body : nullptr; };
+}
+
+void RigidMotion::kick_by_dashpots(SurfaceContactSystem& bodies, double half, bool backwards) {
+  if (!springs_.any()) return;
+  work_ += springs_.kick_by_dashpots(bodies.rigids(), free_bodies(), half, backwards);
   place(bodies.rigids());
 }
 
@@ -193,8 +216,8 @@ std::vector<double> RigidMotion::state() const {
                                       : std::array{Vec<3>{}, Vec<3>{}, shape.rate})
       put(all, v);
   }
-  std::vector<double> const pairs = pairs_.state();
-  all.insert(all.end(), pairs.begin(), pairs.end());
+  for (std::vector<double> const& part : {springs_.state(), pairs_.state()})
+    all.insert(all.end(), part.begin(), part.end());
   return all;
 }
 
@@ -215,6 +238,7 @@ void RigidMotion::restore(std::vector<RigidSurface>& surfaces, std::vector<doubl
       shape.rate = motion[2];
   }
   place(surfaces);
+  springs_.restore(surfaces, from);
   pairs_.restore(surfaces, from.rest());
 }
 
