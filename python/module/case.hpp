@@ -25,6 +25,11 @@ struct ReadCase {
 ReadCase read(std::string const& file, std::string const& text, std::string const& name,
               std::vector<std::string> const& overrides, bool of_results);
 
+/// The TOML text of a case with its settings, and its values as a dict, with texts and units as they are written.
+/// Checks no more than the syntax. Throws InputError with all that is wrong with it.
+py::tuple document(std::string const& file, std::string const& text, std::string const& name,
+                   std::vector<std::string> const& overrides);
+
 /// What warnings `piola check` has for a case. Builds its formulation. Throws InputError.
 std::vector<std::string> warnings_for(ReadCase const& from);
 

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import copy as copying
 import os
+import warnings
 from typing import Any, Callable, Mapping, Optional, Union
 
 import numpy as np
 
 from . import _piola
-from .errors import InputError
+from .display import html_table
+from .errors import CaseWarning, FileError, InputError
+from .keys import value_at, with_absolute_files
 from .strict import Strict, advice
 from .toml import document_text, value_text
 
@@ -56,6 +59,10 @@ class _Named(Strict, dict):
         super().__setitem__(name, entry)
 
 
+def _seconds_text(time: Any) -> str:
+    return f"{time} s" if isinstance(time, (int, float)) else str(time)
+
+
 class Case(Strict):
     """A case: a text in TOML, or a dict of the same structure, with settings that replace values of it.
 
@@ -71,6 +78,7 @@ class Case(Strict):
         self._text = source if isinstance(source, str) else document_text(dict(source))
         self._settings: dict = {}
         self._read = None
+        self._written: Optional[tuple] = None  # the text with the settings and its values
         self._of_results = False  # the files that it names are those that a results folder keeps
         self.body = _Named("body", Body)
         self.support = _Named("support", Support)
@@ -92,7 +100,59 @@ class Case(Strict):
         """
         value_text(value)
         self._settings[key] = value
-        self._read = None
+        self._read = self._written = None
+
+    def __getitem__(self, key: str) -> Any:
+        """A copy of a value as it is written, with the settings: case["run.end"] may be "20 ms" or 0.02.
+
+        The same keys as in __setitem__. Raises KeyError with the nearest valid key where the case gives none, and
+        InputError if the case cannot be read.
+        """
+        return value_at(self._document()[1], key)
+
+    def __contains__(self, key: str) -> bool:
+        """Whether the case gives a value."""
+        try:
+            value_at(self._document()[1], key)
+        except KeyError:
+            return False
+        return True
+
+    __iter__ = None  # else [] with numbers would be tried
+
+    def __eq__(self, other: Any) -> bool:
+        """Whether another case has the same values, as they are written, and the same Python functions."""
+        if not isinstance(other, Case):
+            return NotImplemented
+        mine, others = self._functions(), other._functions()
+        return (self._document()[1] == other._document()[1] and mine.keys() == others.keys()
+                and all(np.array_equal(mine[name], others[name]) for name in mine))
+
+    def to_dict(self) -> dict:
+        """All values as they are written, with the settings: Case(case.to_dict()) is the same case."""
+        return copying.deepcopy(self._document()[1])
+
+    def save(self, path: Union[str, os.PathLike]) -> None:
+        """Writes the case with its settings to a case file, or to the case.toml of a folder, which is replaced.
+
+        Files that the case names get absolute paths if it moves to another folder. Functions cannot be written, which
+        a CaseWarning says. Raises InputError, FileError.
+        """
+        path = os.path.join(path, "case.toml") if os.path.isdir(path) else os.fspath(path)
+        text, values = self._document()
+        folder = self._folder()
+        if folder != os.path.dirname(os.path.abspath(path)):
+            moved = with_absolute_files(values, folder)
+            text = text if moved == values else document_text(moved)
+        if self._functions():
+            warnings.warn(f"{path}: the Python functions of the case are not in the file", CaseWarning, stacklevel=2)
+        try:
+            with open(path + ".part", "w", encoding="utf-8") as file:
+                file.write(text)
+            os.replace(path + ".part", path)
+        except OSError as error:
+            raise FileError(f"{path}: cannot be written ({error.strerror}) - give a file in a folder that you may "
+                            "write to") from error
 
     def copy(self, set: Optional[Mapping[str, Any]] = None) -> "Case":
         """Another case like this one, with more settings."""
@@ -135,16 +195,47 @@ class Case(Strict):
         return self._case().volume
 
     def __repr__(self) -> str:
-        return f"piola.Case({self._file or 'text'!r}, set={self._settings!r})"
+        about = self._about()
+        title = about.pop("title", "")
+        return f"<piola.Case {title!r}: " + ", ".join(f"{name} {what}" for name, what in about.items() if what) + ">"
+
+    def _repr_html_(self) -> str:
+        about = self._about()
+        return html_table(f"Case: {about.pop('title', '')}", about)
+
+    def _about(self) -> dict:
+        """What a short description says. Makes no particles, which may take long."""
+        about = {"file": self._file}
+        try:
+            values = self._document()[1]
+        except InputError as error:
+            return {**about, "problems": str(error)}
+        bodies, run = values.get("body", []), values.get("run", {})
+        names = [body.get("name", "?") for body in bodies if isinstance(body, dict)] if isinstance(bodies, list) else []
+        made = len(self._read.X) if self._read is not None else "not made yet (check() makes them)"
+        return {"title": values.get("title", ""), "bodies": ", ".join(map(str, names)), "particles": made,
+                "end": _seconds_text(run.get("end", "")) if isinstance(run, dict) else "", **about}
+
+    def _document(self) -> tuple:
+        """The text with the settings, and its values."""
+        if self._written is None:
+            self._written = _piola.document(self._file, self._text, "case", self.overrides())
+        return self._written
+
+    def _folder(self) -> str:
+        """Where relative paths in the case start."""
+        file = os.path.abspath(self._file) if self._file else ""
+        return os.getcwd() if not file else file if os.path.isdir(file) else os.path.dirname(file)
 
     def _case(self):
         if self._read is None:
             self._read = _piola.read(self._file, self._text, "case", self.overrides(), self._of_results)
         return self._read
 
-    def _has_functions(self) -> bool:
-        given = [b.initial_velocity for b in self.body.values()] + [b.initial_displacement for b in self.body.values()]
-        return any(what is not None for what in given + [s.velocity for s in self.support.values()])
+    def _functions(self) -> dict:
+        """The functions and arrays that were set, by place."""
+        return {(name, key): getattr(entry, key) for named in (self.body, self.support)
+                for name, entry in named.items() for key in entry._settable if getattr(entry, key) is not None}
 
     def _known_names(self, case) -> None:
         problems = []

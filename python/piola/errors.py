@@ -32,5 +32,12 @@ class FileError(OSError):
     """A file or folder cannot be read or written."""
 
 
+class UnknownName(KeyError):
+    """A key, column, field or quantity that does not exist: a KeyError whose text is shown as it is."""
+
+    def __str__(self) -> str:
+        return self.args[0]
+
+
 class CaseWarning(UserWarning):
     """A case or an answer that is doubtful."""

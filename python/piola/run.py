@@ -13,9 +13,11 @@ import numpy as np
 
 from . import _piola
 from .case import Case
-from .errors import CaseWarning
+from .display import html_table
+from .errors import CaseWarning, UnknownName
+from .progress import ProgressLine
 from .results import Columns, present_name
-from .strict import Strict
+from .strict import Strict, advice
 
 STOP = object()
 """What an observer returns to stop the run; it can go on afterwards."""
@@ -63,8 +65,8 @@ class Run(Strict):
         return run
 
     def _start(self, case: Case, folder: str, resume: bool, force: bool) -> None:
-        self._case = case
-        self._session = _piola.Session(case._case(), folder, resume, force, *case._given())
+        self._read = case._case()
+        self._session = _piola.Session(self._read, folder, resume, force, *case._given())
         self._summary: Optional[dict] = None
         self._warn()
 
@@ -155,10 +157,11 @@ class Run(Strict):
         Raises KeyError for a field that is not in `fields`, ValueError or TypeError for an array that does not fit.
         """
         name = present_name(name)
-        if out is None:
-            return self._session.field(name)
-        self._session.field(name, out)
-        return out
+        try:
+            values = self._session.field(name, out)
+        except KeyError:
+            raise UnknownName(f"there is no field {name!r} - {advice(name, self.fields)}") from None
+        return values if out is None else out
 
     # Going on -------------------------------------------------------------------------------------------------------
     def step(self, n: int = 1) -> bool:
@@ -181,12 +184,20 @@ class Run(Strict):
         finally:
             self._warn()
 
-    def finish(self) -> dict:
+    def finish(self, progress: bool = False) -> dict:
         """Runs to the end (or to where an observer stops it), closes the results and returns the summary, as in
         summary.json. Raises as advance does; close() then gives the summary.
+
+        progress: shows one line on sys.stdout, also in notebooks, with the time left as estimated from the time that it
+        took so far. It does not change the bits of the run.
         """
         if self._summary is None:
-            self._advance(math.inf, -1, False)
+            line = self.observe(ProgressLine(self)) if progress else None
+            try:
+                self._advance(math.inf, -1, False)
+            finally:
+                if line:
+                    line.close(self)
         return self.close()
 
     def close(self) -> dict:
@@ -239,5 +250,22 @@ class Run(Strict):
         time, step, dt, first = (float(value) for value in state["run"])
         self._session.load(arrays, time, int(step), dt, first)
 
+    @property
+    def status(self) -> str:
+        """"running" until the results are closed, then as in the summary: completed, stopped or failed."""
+        return "running" if self._summary is None else self._summary["status"]
+
+    def _about(self) -> dict:
+        """What a short description says."""
+        bodies = (f"{name} ({last - first} particles)" for name, first, last in self._read.bodies)
+        quantities = (f"{name} = {entry['value']} {entry['unit']}".strip()
+                      for name, entry in (self._summary or {}).get("quantities", {}).items())
+        return {"status": self.status, "time": f"{self.time:.6g} s of {self.end:.6g} s", "step": self.steps,
+                "particles": len(self.X), "bodies": ", ".join(bodies), "quantities": ", ".join(quantities)}
+
     def __repr__(self) -> str:
-        return f"<piola.Run {self._case.title!r} at t = {self.time:.6g} s of {self.end:.6g} s, step {self.steps}>"
+        about = ", ".join(f"{name} {what}" for name, what in self._about().items() if what != "")
+        return f"<piola.Run {self._read.title!r}: {about}>"
+
+    def _repr_html_(self) -> str:
+        return html_table(f"Run: {self._read.title}", self._about())

@@ -7,9 +7,11 @@ from typing import Any, Iterable
 
 
 def advice(name: str, known: Iterable[str]) -> str:
-    """What to do about an unknown name: the nearest known one, capitals aside, or all of them."""
+    """What to do about an unknown name: the nearest known one, capitals aside, or all of them. Columns such as
+    "top.twist_angle" are also near to the name of their probe."""
     known = list(known)
-    lower = {each.lower(): each for each in reversed(known)}
+    lower = {each.lower().partition(".")[0]: each for each in reversed(known)}
+    lower.update({each.lower(): each for each in reversed(known)})
     near = difflib.get_close_matches(name.lower(), lower, n=1)
     return f"did you mean {lower[near[0]]!r}?" if near else f"choose one of {', '.join(known) or 'none'}"
 

@@ -30,7 +30,7 @@ def study(case: Case, parameters: Mapping[str, Sequence[Any]], out: Union[str, o
     Raises InputError for cases with Python functions (they cannot go to another process) and if any of the cases is
     wrong, before the first one runs.
     """
-    if case._has_functions():
+    if case._functions():
         raise InputError("a case with Python functions cannot be studied - run it in a loop of your own")
     if jobs < 1:
         raise ValueError("jobs: a number from 1 on is needed")

@@ -15,7 +15,6 @@ import re
 import resource
 import signal
 import subprocess
-import tempfile
 import threading
 import unittest
 import warnings
@@ -24,39 +23,10 @@ from pathlib import Path
 import numpy as np
 
 import piola
+from small_column import InFolder, column
 
 SOURCE = Path(os.environ["PIOLA_SOURCE_DIR"])
 PROGRAM = os.environ["PIOLA_PROGRAM"]
-
-
-def column(**settings):
-    """A small column on a support."""
-    return piola.Case({
-        "title": "column",
-        "run": {"end": "4 ms", "threads": 2},
-        "body": [{
-            "name": "column",
-            "formulation": {"name": "nodal"},
-            "shape": {"box": {"min": [0, 0, 0], "max": [1, 2, 1]}, "particles": [3, 6, 3]},
-            "material": {"law": "neo_hookean", "density": 1000, "youngs_modulus": "10 GPa", "poissons_ratio": 0.3},
-            "initial_velocity": ["3 * Y", 0, 0]}],
-        "support": [{"name": "ground", "body": "column", "where": "Y < 0.1", "fix": "xyz"}],
-        "output": {"frames": {"every": "1 ms"}, "history": {"every": "0.1 ms"}, "checkpoints": {"every": "1 ms"}},
-    }, set=settings)
-
-
-class InFolder(unittest.TestCase):
-    def setUp(self):
-        before = os.getcwd()
-        folder = tempfile.TemporaryDirectory()
-        os.chdir(folder.name)
-        self.addCleanup(folder.cleanup)
-        self.addCleanup(os.chdir, before)
-        # Doubts that a test does not look for fail it.
-        caught = warnings.catch_warnings()
-        caught.__enter__()
-        warnings.simplefilter("error", piola.CaseWarning)
-        self.addCleanup(caught.__exit__, None, None, None)
 
 
 class Runs(InFolder):
@@ -115,7 +85,7 @@ class Runs(InFolder):
         np.testing.assert_allclose(run.field("Position"), run.X + run.field("Displacement"), rtol=0, atol=1e-15)
         momentum = (1000 * run.volume[:, None] * velocity).sum(0)
         np.testing.assert_allclose(momentum, run.momentum, rtol=1e-10, atol=1e-9)
-        with self.assertRaisesRegex(KeyError, "no field 'Presure'"):
+        with self.assertRaisesRegex(KeyError, "no field 'Presure' - did you mean 'Pressure'"):
             run.field("Presure")
         with self.assertRaisesRegex(ValueError, r"\(54, 3\)"):
             run.field("Velocity", out=np.empty((3, 3)))
@@ -409,6 +379,9 @@ class Folders(InFolder):
         self.assertEqual(set(table.columns), set(run.history) - {"time"})
         np.testing.assert_array_equal(table["kinetic_energy"].to_numpy(), run.history["kinetic_energy"])
         np.testing.assert_array_equal(table.index.to_numpy(), run.history["time"])
+        self.assertEqual(table.attrs["units"]["kinetic_energy"], "J")
+        for name, unit in piola.Results("results").units.items():
+            self.assertEqual(unit, run.history_units[name], name)
 
     @unittest.skipUnless(importlib.util.find_spec("xarray"), "needs python3-xarray")
     def test_xarray(self):
@@ -421,6 +394,12 @@ class Folders(InFolder):
         self.assertEqual((data.Pressure.attrs["units"], data.time.attrs["units"]), ("Pa", "s"))
         for name in results.frames[3].fields:
             np.testing.assert_array_equal(data[name].isel(time=3), results.frames[3][name], name)
+        stress = data.CauchyStress.sel(component_6="xy").isel(time=3)
+        np.testing.assert_array_equal(stress, results.frames[3]["CauchyStress"][:, 3])
+        self.assertEqual(data.component_9.values[5], "yz")
+        self.assertEqual(set(results.to_xarray(["Pressure"]).data_vars), {"Pressure"})
+        with self.assertRaisesRegex(KeyError, "did you mean 'Pressure'"):
+            results.to_xarray("presure")
 
     def test_study(self):
         key = "body.column.material.poissons_ratio"
