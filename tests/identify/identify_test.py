@@ -61,7 +61,8 @@ class Identify(unittest.TestCase):
         import numpy
         import johnson_cook_point
         subprocess.run([PROGRAM, "run", "tension.toml", "--out", "run", "--quiet"], cwd=self.folder, check=True)
-        lines = [line for line in (self.folder / "run/history.csv").read_text().splitlines() if not line.startswith("#")]
+        text = (self.folder / "run/history.csv").read_text()
+        lines = [line for line in text.splitlines() if not line.startswith("#")]
         names = lines[0].split(",")
         rows = numpy.array([[float(row.split(",")[names.index(name)]) for name in ("time", "cube.von_mises_stress")]
                             for row in lines[1:]])

@@ -28,10 +28,8 @@ TEST(SpringMessages, SpringsAreBetweenShapesOneOfThemFree) {
   EXPECT_EQ(spring("between = [\"ball\"]\n" + stiff), "");
   EXPECT_EQ(spring("between = [\"anvil\", \"ball\"]\n" + stiff + "damping = \"2 N s/m\"\nrest_length = \"1 mm\"\n"),
             "");
-  EXPECT_EQ(
-      spring("between = [\"anvil\"]\n" + stiff),
-      "case.toml:33:11: spring.between names no free shape (allowed: one or two with motion = \"free\") - free one, "
-      "or remove the spring");
+  EXPECT_TRUE(mentions(spring("between = [\"anvil\"]\n" + stiff),
+                       {"case.toml:33:11: spring.between", "no free shape", "motion = \"free\"", "remove"}));
   EXPECT_TRUE(
       mentions(spring("between = [\"ball\", \"ball\"]\n" + stiff), {"33:11", "\"ball\" twice", "another shape"}));
   EXPECT_TRUE(mentions(spring("between = [\"ball\", \"anvli\"]\n" + stiff),

@@ -10,6 +10,7 @@
 /// with the limiting stretch L (Arruda, Boyce, J. Mech. Phys. Solids 41, 1993). m follows from the shear modulus at
 /// rest, mu = 2 m sum_i i C_i 3^(i-1) L^(2-2i).
 namespace piola::block_laws {
+namespace arruda_boyce_law {
 namespace {
 
 constexpr std::array terms{1.0 / 2, 1.0 / 20, 11.0 / 1050, 19.0 / 7000, 519.0 / 673750};
@@ -80,12 +81,13 @@ constexpr piola_material law{.interface_version = PIOLA_MATERIAL_INTERFACE,
                              .update = &update};
 
 }  // namespace
+}  // namespace arruda_boyce_law
 
 constinit LawInfo const arruda_boyce{
     .name = "arruda_boyce",
     .about = "rubber with a limit of stretch: eight chains, five terms",
     .validity = "stretches of the chains below limiting_stretch: sqrt(I/3), I = J^(-2/3) F:F",
-    .parameters = parameters,
-    .block = &law};
+    .parameters = arruda_boyce_law::parameters,
+    .block = &arruda_boyce_law::law};
 
 }  // namespace piola::block_laws

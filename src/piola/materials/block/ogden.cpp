@@ -11,6 +11,7 @@
 ///   W = sum_i mu_i/alpha_i (l_1^alpha_i + l_2^alpha_i + l_3^alpha_i - 3) + kappa/2 (J - 1)^2,
 /// with the isochoric stretches l_k = J^(-1/3) lambda_k. The shear modulus at rest is sum_i mu_i alpha_i / 2.
 namespace piola::block_laws {
+namespace ogden_law {
 namespace {
 
 constexpr int most_terms = 3;
@@ -106,11 +107,12 @@ constexpr piola_material law{.interface_version = PIOLA_MATERIAL_INTERFACE,
                              .update = &update};
 
 }  // namespace
+}  // namespace ogden_law
 
 constinit LawInfo const ogden{.name = "ogden",
                               .about = "rubber by powers of the principal stretches, up to three terms",
                               .validity = "stable at all stretches if mu_i alpha_i > 0 in each term",
-                              .parameters = parameters,
-                              .block = &law};
+                              .parameters = ogden_law::parameters,
+                              .block = &ogden_law::law};
 
 }  // namespace piola::block_laws

@@ -11,6 +11,7 @@
 ///   P = J^(-2/3) F DEV[(1 - sum g_i) S~ + sum g_i H_i] + kappa (J - 1) cof F,  H_i = int exp(-(t - s)/tau_i) dS~(s),
 /// DEV[A] = A - (A : C)/3 C^-1. The history H_i stands in the reference configuration: the law is objective.
 namespace piola::block_laws {
+namespace viscoelastic_law {
 namespace {
 
 constexpr int most_terms = 4;
@@ -137,12 +138,13 @@ constexpr piola_material law{.interface_version = PIOLA_MATERIAL_INTERFACE,
                              .update = &update};
 
 }  // namespace
+}  // namespace viscoelastic_law
 
 constinit LawInfo const viscoelastic{
     .name = "viscoelastic",
     .about = "rubber and polymers whose shear stress relaxes: neo-Hookean with a Prony series of up to four terms",
     .validity = "nearly incompressible, J > 0",
-    .parameters = parameters,
-    .block = &law};
+    .parameters = viscoelastic_law::parameters,
+    .block = &viscoelastic_law::law};
 
 }  // namespace piola::block_laws
