@@ -29,6 +29,14 @@ RELAXES = BULK | {"shear_modulus": 8e10, "g_1": 0.5}
 YIELD = STEEL | {"yield_stress": 2e8}
 HARDENS = YIELD | {"hardening_coefficient": 2e8, "hardening_exponent": 0.5, "melting_temperature": 1800}
 
+CONCRETE = {"law": "holmquist_johnson_cook", "density": 2440, "shear_modulus": 14.86e9, "compressive_strength": 48e6,
+            "tensile_strength": 4e6, "cohesive_strength": 0.79, "pressure_hardening": 1.6, "pressure_exponent": 0.61,
+            "fracture_coefficient": 0.04, "crush_pressure": 16e6, "crush_compression": 0.001, "lock_pressure": 0.8e9,
+            "lock_compression": 0.1, "k1": 85e9}
+LAMINA = {"law": "orthotropic", "density": 1600, "youngs_modulus_2": 1e10, "youngs_modulus_3": 1e10,
+          "poissons_ratio_12": 0.28, "poissons_ratio_13": 0.28, "poissons_ratio_23": 0.45, "shear_modulus_12": 7e9,
+          "shear_modulus_13": 7e9, "shear_modulus_23": 3.5e9}
+
 SPALL = {"spall_pressure": 1e8, "spall": "hydrostatic"}
 
 
@@ -340,6 +348,13 @@ FEATURES = {
     "`steinberg_guinan`": material(law="steinberg_guinan", **YIELD, strain_factor=36, hardening_exponent=0.45,
                                    pressure_coefficient=2.8e-11),
     "`johnson_holmquist`, glass and ceramics": material(name="soda_lime_glass"),
+    "`drucker_prager`, soil and rock": material(law="drucker_prager", **STEEL, friction_angle=0.5, cohesion=1e8),
+    "`holmquist_johnson_cook`, concrete": material(**CONCRETE),
+    "`p_alpha`, porous solids": material(law="p_alpha", density=2160, distension=1.25, bulk_sound_speed=5300,
+                                         elastic_pressure=1e8, compaction_pressure=1e9, shear_modulus=15e9,
+                                         yield_stress=1e8),
+    "`orthotropic`, composites and wood": material(**LAMINA, youngs_modulus_1=181e9,
+                                                   without=LAMINA | {"youngs_modulus_1": 20e9}),
     "a law of your own in a library": material(**own_law(), yield_stress=2e8,
                                              without={**own_law(), "yield_stress": 1e8}),
     "equations of state: `stiffened_gas`": metal(eos="stiffened_gas", adiabatic_exponent=4),

@@ -24,12 +24,23 @@ std::mutex& one_at_a_time() {
   return mutex;
 }
 
+/// Parameters as the law sees them: the numbers after the density, then the words.
+std::array<double, BlockLaw::most_values> parameters_of(MaterialParameters const& material) {
+  LawInfo const& law = law_of(material);
+  std::array<double, BlockLaw::most_values> all{};
+  std::copy_n(material.value + 1, MaterialParameters::max_values - 1, all.begin());
+  if (!law.parameters.empty())
+    std::copy_n(material.word, law.choices.size(),
+                all.begin() + static_cast<std::ptrdiff_t>(law.parameters.size()) - 1);
+  return all;
+}
+
 }  // namespace
 
 char const* running_block_law() { return running; }
 
-BlockLaw::BlockLaw(MaterialParameters const& material) : rho0(material.value[0]), law_(law_of(material).block) {
-  std::copy_n(material.value + 1, parameters_.size(), parameters_.begin());
+BlockLaw::BlockLaw(MaterialParameters const& material)
+    : rho0(material.value[0]), law_(law_of(material).block), parameters_(parameters_of(material)) {
   constexpr double small = 1e-6;
   double most = 0, bulk = 0;
   for (std::size_t c = 0; c < 6; ++c) {
@@ -108,7 +119,7 @@ std::string problem_of_block_law(MaterialParameters const& material) {
   piola_material const& law = *law_of(material).block;
   if (law.check != nullptr) {
     Running const mark(law.name);
-    if (law.check(material.value + 1, text.data(), static_cast<int>(text.size())) != 0) {
+    if (law.check(parameters_of(material).data(), text.data(), static_cast<int>(text.size())) != 0) {
       text.back() = 0;
       return text.data();
     }

@@ -11,7 +11,9 @@ namespace piola {
 /// A law that advances blocks of points, through the interface piola_material.h: one of a user's library.
 class BlockLaw {
  public:
-  static constexpr int most_parameters = MaterialParameters::max_values - 1;  ///< in addition to the density
+  static constexpr int most_parameters = MaterialParameters::max_values - 1;  ///< without the density
+  /// Parameters, then the indices of the words of Piola's own laws (LawInfo::choices).
+  static constexpr int most_values = most_parameters + MaterialParameters::max_words;
   static constexpr int most_history = 256;
 
   /// Finds the moduli at rest by small strains of a point at rest.
@@ -40,7 +42,7 @@ class BlockLaw {
 
  private:
   piola_material const* law_;
-  std::array<double, most_parameters> parameters_{};
+  std::array<double, most_values> parameters_{};
 };
 
 /// Whether the law of the material works on blocks of points.

@@ -7,7 +7,7 @@
 /// this folder that defines its LawInfo, its name here and in own_laws.cpp.
 namespace piola::block_laws {
 
-extern LawInfo const arruda_boyce, ogden, viscoelastic;
+extern LawInfo const arruda_boyce, drucker_prager, holmquist_johnson_cook, ogden, orthotropic, p_alpha, viscoelastic;
 
 /// All of them; their indices are set by the registry.
 std::span<LawInfo const* const> own_laws();
