@@ -82,6 +82,8 @@ TEST(TableMessages, FilesAreReadInTheirUnits) {
 
 TEST(TableMessages, FilesThatCannotBeUsedAreExplainedLineByLine) {
   EXPECT_TRUE(mentions(with("{ file = \"none.csv\" }"), {"case.toml:26:21: none.csv", "cannot be read"}));
+  EXPECT_TRUE(mentions(with("{ file = 3 }"), {"case.toml:26:21: table.file", "a text in quotes"}));
+  EXPECT_TRUE(mentions(with("{ file = \"\" }"), {"case.toml:26:21:", "cannot be read"}));
   EXPECT_TRUE(mentions(with_file(""), {"force.csv: is empty", "header"}));
   EXPECT_TRUE(mentions(with_file("# nothing\n"), {"is empty"}));
   EXPECT_TRUE(mentions(with_file("time,force\n1,2\n"), {"has one row", "two or more"}));

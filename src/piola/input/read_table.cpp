@@ -273,7 +273,8 @@ std::optional<Expression> read_table(Value const& value, std::string_view unit, 
   bool const rows = section.has("table"), file = section.has("file");
   if (rows == file) section.refuse_count(value.name, rows ? 2 : 0, "table, file");
   if (!file) section.refuse("column", "is used only with file");
-  if (!over || rows == file) return std::nullopt;
+  bool const named = file && section.node().find("file")->is_text();
+  if (!over || rows == file || file != named) return std::nullopt;
   TableUnits const units{unit_of_argument(over->text()), unit_of_values(section, spec, over->text(), unit)};
   TablePoints points = rows ? points_of_rows(*section.find("table"), units, problems)
                             : points_of_file(section, spec.file, spec.column, units);
