@@ -67,8 +67,8 @@ typedef struct piola_points {
   const double *U_old;      /* stretch at the start of the step, 6 components 11 22 33 12 23 13; NULL if the law */
   const double *U_new;      /* works with the first Piola stress. And at the end of the step */
   double *stress;           /* in: at the start of the step; out: at its end */
-  double *energy;           /* per reference volume [J/m^3]. In: internal energy at the start, from the work of the stress;
-                               out: of elastic laws the stored energy; ignored of others */
+  double *energy;           /* per reference volume [J/m^3]. In: internal energy at the start, work of the stress;
+                               out: the stored energy of elastic laws; Piola ignores it for all other laws */
   double *history;          /* in: at the start of the step; out: at its end */
   double *sound_speed;      /* out, optional: speed of pressure waves now [m/s]; preset with that at rest */
 } piola_points;
@@ -93,7 +93,7 @@ typedef struct piola_material {
   int (*update)(const piola_points *points);
 } piola_material;
 
-/* What a library exports: its laws, which must stay as they are. `interface_version` is that of Piola. */
+/* A library exports its laws, which must stay as they are. `interface_version` is that of Piola. */
 const piola_material *piola_materials(int interface_version, int *count);
 
 #ifdef __cplusplus

@@ -27,7 +27,7 @@ constexpr std::array<std::string_view, 3> cones{"compression", "plane_strain", "
 constexpr std::array<std::string_view, 2> caps{"none", "elliptic"};
 constexpr std::array choices{
     Choice{"cone",
-           "how the strength is given: by Mohr-Coulomb's friction_angle and cohesion, which the cone meets in triaxial "
+           "how the strength is given: by Mohr-Coulomb's friction_angle and cohesion, which the cone has in triaxial "
            "compression or at failure in plane strain; or by alpha_k, sqrt(J2) + alpha I1 = k",
            cones},
     Choice{"cap", "limit of pressure, which moves with plastic compaction", caps}};

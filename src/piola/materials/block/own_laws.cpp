@@ -5,8 +5,8 @@
 namespace piola::block_laws {
 
 std::span<LawInfo const* const> own_laws() {
-  static std::array const all{&arruda_boyce, &ogden, &viscoelastic, &drucker_prager, &holmquist_johnson_cook,
-                              &orthotropic, &p_alpha};
+  static std::array const all{&arruda_boyce,           &ogden,       &viscoelastic, &drucker_prager,
+                              &holmquist_johnson_cook, &orthotropic, &p_alpha};
   return all;
 }
 
