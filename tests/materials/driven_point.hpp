@@ -2,8 +2,10 @@
 #pragma once
 #include "piola/materials/block_law.hpp"
 #include "piola/math/polar.hpp"
+#include "piola/verification/block_law_battery.hpp"
 #include <algorithm>
 #include <cmath>
+#include <gtest/gtest.h>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -46,6 +48,12 @@ inline Mat<3> sheared(double xy) {
   Mat<3> F = identity<3>();
   F(0, 1) = xy;
   return F;
+}
+
+/// The parameters go together, and the law passes all checks of a library's law.
+inline void expect_battery(MaterialParameters const& m) {
+  EXPECT_EQ(problem_of_block_law(m), "");
+  for (LawCheck const& check : check_block_law(m)) EXPECT_TRUE(check.passed()) << check.what << ": " << check.value;
 }
 
 class DrivenPoint {

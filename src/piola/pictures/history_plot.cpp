@@ -18,15 +18,17 @@
 namespace piola {
 namespace {
 
-/// Columns of runs with contact or ties, of any formulation. A field may have the same name with another unit.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 8> meeting_columns{{{"contact_energy", "J"},
-                                                                                        {"contact_overlap", "1"},
-                                                                                        {"contact_points", "1"},
-                                                                                        {"friction_heat", "J"},
-                                                                                        {"chatter_damping_loss", "J"},
-                                                                                        {"tie_energy", "J"},
-                                                                                        {"tie_dissipation", "J"},
-                                                                                        {"tie_failed_fraction", "1"}}};
+/// Columns of runs with contact, ties or springs, of any formulation. A field may have the same name with another unit.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 10> meeting_columns{{{"contact_energy", "J"},
+                                                                                         {"contact_overlap", "1"},
+                                                                                         {"contact_points", "1"},
+                                                                                         {"friction_heat", "J"},
+                                                                                         {"chatter_damping_loss", "J"},
+                                                                                         {"tie_energy", "J"},
+                                                                                         {"tie_dissipation", "J"},
+                                                                                         {"tie_failed_fraction", "1"},
+                                                                                         {"spring_energy", "J"},
+                                                                                         {"dashpot_loss", "J"}}};
 
 HistoryTable history_of(std::filesystem::path const& folder) {
   HistoryTable table = read_history(folder / "history.csv");
