@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/errors.hpp"
 #include "piola/base/text.hpp"
+#include "piola/base/units.hpp"
 #include "piola/simulation/case_schema.hpp"
 #include "commands.hpp"
 #include "man_page.hpp"
@@ -20,13 +21,26 @@ struct DescribeArguments {
 
 using Describe = std::string (*)(std::string const& name, Layout layout);
 
+/// What 0 and 1 of a unit are in SI base units.
+std::string describe_unit(std::string const& name, Layout) {
+  std::string text;
+  for (char const* const number : {"0 ", "1 "}) {
+    Quantity const quantity = read_any_quantity(number + name);
+    if (quantity.problem || !is_unit(name))
+      throw InputError(in_quotes(name) + " is not a unit (allowed: those of UDUNITS-2 such as MPa, kN/mm or degC) - " +
+                       "correct the spelling");
+    text += fmt::format("{}{} = {} in SI units\n", number, name, quantity.value);
+  }
+  return text;
+}
+
 struct Topic {
   std::string_view kind;
   Describe describe;
 };
-constexpr std::array topics{Topic{"case", describe_case}, Topic{"material", describe_materials},
-                            Topic{"library", describe_library}, Topic{"kernel", describe_kernels},
-                            Topic{"formulation", describe_formulations}};
+constexpr std::array topics{
+    Topic{"case", describe_case},      Topic{"material", describe_materials},       Topic{"library", describe_library},
+    Topic{"kernel", describe_kernels}, Topic{"formulation", describe_formulations}, Topic{"unit", describe_unit}};
 
 int describe(DescribeArguments const& options, CLI::App const& program) {
   Layout const layout = options.markdown ? Layout::markdown : Layout::plain;
@@ -64,9 +78,10 @@ void add_describe(CLI::App& program, Action& action) {
       program.add_subcommand("describe", "Explain materials, kernels, formulations and the keys of a case file");
   command->add_option(
       "kind", options->kind,
-      "material, library, kernel, formulation or case; all in short if left out; man-page or completion: of "
+      "material, library, kernel, formulation, case or unit; all in short if left out; man-page or completion: of "
       "this program, for man and bash");
-  command->add_option("name", options->name, "which one, e.g. neo_hookean; for a case a section, e.g. body.shape");
+  command->add_option("name", options->name,
+                      "which one, e.g. neo_hookean or MPa; for a case a section, e.g. body.shape");
   command->add_flag("--markdown", options->markdown,
                     "As a page of the manual; alone: the whole page docs/user/case-reference.md");
   command->add_flag("--schema", options->schema,

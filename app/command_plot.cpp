@@ -5,6 +5,7 @@
 #include "piola/pictures/history_plot.hpp"
 #include "piola/report/checks_of_run.hpp"
 #include "piola/report/plot_references.hpp"
+#include "piola/study/identification_plot.hpp"
 #include "piola/study/study_plot.hpp"
 #include "commands.hpp"
 #include "streams.hpp"
@@ -44,6 +45,13 @@ Plot plot_of_study(PlotArguments const& options, std::filesystem::path const& ta
                             .log_y = is_logarithmic(options, "y")});
 }
 
+Plot plot_of_identification(PlotArguments const& options, std::filesystem::path const& table) {
+  if (!options.columns.empty() || !options.with.empty() || !options.checks.empty() || !options.against.empty())
+    throw InputError(table.string() + " is of an identification: columns, --with, --against and --checks are for runs" +
+                     " - leave them out");
+  return identification_plot(table, is_logarithmic(options, "x"), is_logarithmic(options, "y"));
+}
+
 Plot plot_of_run(PlotArguments const& options) {
   bool const over_time = options.against.empty() || options.against == "time";
   Plot drawn = history_plot(options.folder, {.columns = options.columns,
@@ -60,26 +68,34 @@ Plot plot_of_run(PlotArguments const& options) {
   return drawn;
 }
 
+/// Writes the plot to `--out`, or beside what it is drawn from.
+int write_drawing(PlotArguments const& options, Plot drawn, std::filesystem::path const& beside, std::size_t curves) {
+  drawn.width = options.size[0];
+  drawn.height = options.size[1];
+  std::filesystem::path const out = options.out.empty() ? beside : std::filesystem::path(options.out);
+  if (out.has_parent_path()) make_folder(out.parent_path());
+  write_plot(out, drawn);
+  print_result("{} curve{} drawn to {}\n", curves, curves == 1 ? "" : "s", out.string());
+  return completed;
+}
+
 int plot(PlotArguments options) {
+  if (auto const curves = identified_curves_at(options.folder); !curves.empty()) {
+    Plot const drawn = plot_of_identification(options, curves);
+    return write_drawing(options, drawn, curves.parent_path() / "curves.svg", drawn.curves.size() / 3);
+  }
   std::filesystem::path const table = study_table_at(options.folder);
   if (table.empty()) {
     for (std::string& column : options.columns) column = current_output_name(column);
     options.against = current_output_name(options.against);
   }
-  Plot drawn = table.empty() ? plot_of_run(options) : plot_of_study(options, table);
-  drawn.width = options.size[0];
-  drawn.height = options.size[1];
+  Plot const drawn = table.empty() ? plot_of_run(options) : plot_of_study(options, table);
   std::string const name = !options.columns.empty() ? options.columns.front() : table.empty() ? "energies" : "study";
   std::filesystem::path const folder = table.empty() ? std::filesystem::path(options.folder) : table.parent_path();
-  std::filesystem::path const out = options.out.empty()
-                                        ? folder / (name + (options.columns.size() > 1 ? "-and-more.svg" : ".svg"))
-                                        : std::filesystem::path(options.out);
-  if (out.has_parent_path()) make_folder(out.parent_path());
-  write_plot(out, drawn);
   // Rings at the runs of a study belong to its curves.
   std::size_t const curves = table.empty() ? drawn.curves.size() : drawn.curves.size() / 2;
-  print_result("{} curve{} drawn to {}\n", curves, curves == 1 ? "" : "s", out.string());
-  return completed;
+  return write_drawing(options, drawn, folder / (name + (options.columns.size() > 1 ? "-and-more.svg" : ".svg")),
+                       curves);
 }
 
 }  // namespace
@@ -87,10 +103,12 @@ int plot(PlotArguments options) {
 void add_plot(CLI::App& program, Action& action) {
   auto const options = std::make_shared<PlotArguments>();
   CLI::App* command = program.add_subcommand(
-      "plot", "Draw columns of the history of a run, by default its energies, or quantities of a study");
+      "plot",
+      "Draw columns of the history of a run, by default its energies, quantities of a study, or identified curves");
   command
-      ->add_option("folder", options->folder,
-                   "The results folder of the run, or the folder or the study.csv of a study")
+      ->add_option(
+          "folder", options->folder,
+          "The results folder of the run, the folder or the study.csv of a study, or that of an identification")
       ->required();
   command->add_option("columns", options->columns,
                       "Columns of history.csv (default: the energies as a ledger); quantities of the study");

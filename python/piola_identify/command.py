@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The command line: reads one file, writes one folder."""
 import argparse
+import signal
 import sys
 import time
 from pathlib import Path
@@ -56,29 +57,52 @@ class _Progress:
         self.tell(f"{count:3}: residual {cost:.4g}, best {best:.4g}   {named}   {spent:.0f} s, at most {left:.0f} s left")
 
 
+def _stop(*_):
+    raise KeyboardInterrupt
+
+
+def _solve(solver):
+    """What is found, and the exit code; the best values so far if the search cannot go on."""
+    try:
+        found = solver.solve()
+        return found, COMPLETED if found.converged else NOT_CONVERGED
+    except KeyboardInterrupt:
+        return solver.unfinished("stopped"), STOPPED
+    except Problem as error:
+        found = solver.unfinished(str(error))
+        if found is None:
+            raise
+        return found, NOT_CONVERGED
+
+
 def _identify(options):
     fit = read_fit(options.file)
     folder = Path(options.out or Path(options.file).stem)
     if (folder / "result.toml").exists() and not options.force:
         raise Problem(f"{folder}/result.toml is there already - --force replaces it, --out names another folder")
-    folder.mkdir(parents=True, exist_ok=True)
-    progress = _Progress(folder, fit)
-    runs = Runs(fit, options.jobs, progress.tell)
-    solver = LeastSquares(fit, runs, progress)
+    runs = Runs(fit, options.jobs)
+    signal.signal(signal.SIGTERM, _stop)
     try:
-        found = solver.solve()
+        folder.mkdir(parents=True, exist_ok=True)
+        progress = _Progress(folder, fit)
+        runs.told = progress.tell
+        found, code = _solve(LeastSquares(fit, runs, progress))
+        if found is None:
+            progress.tell("stopped before the first evaluation")
+            return code
         report.write_result(folder, fit, found, runs.failed)
-        before, after = report.write_curves(folder, runs, [p.start for p in fit.parameters], found)
-        picture = report.draw(folder, runs, before, after)
+        if code != STOPPED:
+            for line in report.write_curves(folder, runs, [p.start for p in fit.parameters], found):
+                progress.tell(line)
     except KeyboardInterrupt:
-        best = solver.outer(solver.best[1]) if solver.best[1] is not None else []
-        progress.tell(f"stopped; best so far: {', '.join(runs.settings(best)) or 'nothing'}")
         return STOPPED
     finally:
         runs.close()
     print(f"{'found' if found.converged else 'NOT CONVERGED'} after {found.evaluations} evaluations, residual "
           f"{found.residual:.3g}" + (f", {runs.failed} runs failed" if runs.failed else ""))
+    if not found.converged:
+        print(f"  {found.message}")
     print(report.table_of(fit, found))
-    print(f"written to {folder}: result.toml, log.txt, curves, cases with these values"
-          + (f", {picture}" if picture else " (fit.png needs the package python3-matplotlib)"))
-    return COMPLETED if found.converged else NOT_CONVERGED
+    print(f"written to {folder}: result.toml, log.txt"
+          + ("" if code == STOPPED else ", curves.csv, curves.svg, and a run of each curve with these values"))
+    return code

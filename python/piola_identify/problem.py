@@ -2,6 +2,7 @@
 """The file that says what is to be found from what."""
 import difflib
 import math
+import re
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,8 +13,11 @@ KEYS = {"": {"parameter", "curve", "evaluations"},
 NEEDED = {"parameter": ("key", "start", "least", "most"), "curve": ("case", "file", "x", "y", "run_x", "run_y")}
 
 
+FILE_NAME = r"[A-Za-z0-9_+-][A-Za-z0-9_.+ -]*"  # what curves may be called, as their results are files
+
+
 class Problem(Exception):
-    """What is wrong with the input."""
+    """What is wrong with the input, a line each."""
 
 
 @dataclass
@@ -75,11 +79,25 @@ class _Reader:
                 self.add(f"{name} needs {key}")
 
     def number(self, table, key, name, preset=math.nan):
-        value = table.get(key, preset)
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or (key in table and not math.isfinite(value)):
-            self.add(f"{name}.{key} is {value!r} (allowed: a number; `unit` gives the unit of all three)")
+        value = table.get(key)
+        if key not in table:
+            return preset
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) < math.inf:
+            self.add(f"{name}.{key} is {value!r} (allowed: a finite number)")
             return math.nan
-        return float(value)
+        return float(min(max(value, -1e308), 1e308))
+
+    def text(self, table, key, name, preset=""):
+        value = table.get(key, preset)
+        if not isinstance(value, str) or (key in table and not value.strip() and key != "unit"):
+            self.add(f"{name}.{key} is {value!r} (allowed: a text)")
+            return preset
+        return value
+
+    def unique(self, kind, entries, what):
+        names = [getattr(entry, what) for entry in entries]
+        for name in sorted({name for name in names if name and names.count(name) > 1}):
+            self.add(f"{names.count(name)} {kind}s have the {what} {name!r} - give each its own")
 
     def parameter(self, table, number):
         name = f"parameter {number}"
@@ -92,25 +110,29 @@ class _Reader:
             self.add(f"{name}.scale is {scale!r} (allowed: \"linear\", \"log\")")
         if scale == "log" and not least > 0:
             self.add(f"{name}: scale = \"log\" needs least above 0")
-        key = str(table.get("key", ""))
-        return Parameter(key, table.get("name", key.rsplit(".", 1)[-1]), start, least, most, table.get("unit", ""),
-                         scale == "log")
+        key = self.text(table, "key", name).strip()
+        return Parameter(key, self.text(table, "name", name, key.rsplit(".", 1)[-1]), start, least, most,
+                         self.text(table, "unit", name), scale == "log")
 
     def curve(self, table, number):
         name = f"curve {number}"
         self.check(table, "curve", name)
         error = self.number(table, "error", name, 0.0)
+        if "error" in table and not error > 0:
+            self.add(f"{name}.error is {error:g} (allowed: above 0, in SI; leave it out if it is unknown)")
         settings = table.get("set", [])
         if not (isinstance(settings, list) and all(isinstance(one, str) for one in settings)):
             self.add(f"{name}.set is {settings!r} (allowed: a list of texts as after --set)")
             settings = []
+        title = self.text(table, "name", name, f"curve_{number}")
+        if not re.fullmatch(FILE_NAME, title):
+            self.add(f"{name}.name is {title!r} (allowed: letters, digits, blanks and _ . + -, as for a file)")
+        texts = {key: self.text(table, key, name) for key in ("case", "file", "x", "y", "run_x", "run_y")}
         for key in ("case", "file"):
-            path = self.path.parent / str(table.get(key, ""))
-            if key in table and not path.is_file():
-                self.add(f"{name}.{key}: no file {path}")
-        return Curve(table.get("name", f"curve_{number}"), self.path.parent / str(table.get("case", "")),
-                     self.path.parent / str(table.get("file", "")), *(str(table.get(key, "")) for key in
-                                                                      ("x", "y", "run_x", "run_y")), error, settings)
+            texts[key] = self.path.parent / texts[key]
+            if isinstance(table.get(key), str) and not texts[key].is_file():
+                self.add(f"{name}.{key}: no file {texts[key]}")
+        return Curve(name=title, error=error, settings=settings, **texts)
 
 
 def read_fit(path):
@@ -128,7 +150,12 @@ def read_fit(path):
             lists[kind] = []
     parameters = [reader.parameter(table, n) for n, table in enumerate(lists["parameter"], 1)]
     curves = [reader.curve(table, n) for n, table in enumerate(lists["curve"], 1)]
-    evaluations = reader.number(document, "evaluations", "the file", 30)
+    for kind, entries, what in (("parameter", parameters, "key"), ("parameter", parameters, "name"),
+                                ("curve", curves, "name")):
+        reader.unique(kind, entries, what)
+    evaluations = document.get("evaluations", 30)
+    if not isinstance(evaluations, int) or isinstance(evaluations, bool) or evaluations < 1:
+        reader.add(f"evaluations is {evaluations!r} (allowed: a whole number from 1 on)")
     if reader.problems:
         raise Problem("\n".join(reader.problems))
-    return Fit(parameters, curves, int(evaluations))
+    return Fit(parameters, curves, evaluations)

@@ -4,6 +4,7 @@
 and says what is wrong with its input."""
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -34,7 +35,7 @@ name = "tension"
 case = "{case}"
 file = "curve.csv"
 x = "strain"
-y = "stress * 1e6"
+y = "stress"
 run_x = "1000 * time"
 run_y = "{column}"
 """
@@ -72,19 +73,59 @@ class Identify(unittest.TestCase):
         self.assertGreater(late.sum(), 90)
         self.assertLess(abs(rows[late, 1] / law[late] - 1).max(), 3e-4)
 
-    def test_finds_the_truth_within_its_intervals(self):
-        done = self.identify()
+    def holds_the_truth(self, fit):
+        done = self.identify(fit)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         result = tomllib.loads((self.folder / "fit/result.toml").read_text())
         for parameter, truth, spread in zip(result["parameter"], (90, 292), (5, 10)):
             self.assertLess(parameter["low"], truth)
             self.assertGreater(parameter["high"], truth)
             self.assertLess(parameter["high"] - parameter["low"], spread)
+
+    def test_finds_the_truth_within_its_intervals(self):
+        self.holds_the_truth(FIT)
         self.assertTrue((self.folder / "fit/tension_fitted/case.toml").is_file())
-        self.assertEqual(len((self.folder / "fit/tension.csv").read_text().splitlines()), 31)
+        self.assertEqual(len((self.folder / "fit/curves.csv").read_text().splitlines()), 31)
+        self.assertIn("<svg", (self.folder / "fit/curves.svg").read_text())
         again = self.identify()
         self.assertEqual(again.returncode, 2)
         self.assertIn("--force", again.stderr)
+
+    def test_units_signs_and_weights_change_nothing(self):
+        rows = [[float(number) for number in line.split(",")]
+                for line in (self.folder / "curve.csv").read_text().splitlines()[1:]]
+        (self.folder / "curve.csv").write_text("\ufeffTrue strain [%],stress [kPa]\n# compression\n" + "".join(
+            f"{-100 * strain},{1000 * stress}\n" for strain, stress in rows))
+        self.holds_the_truth(FIT.replace('"strain"', '"True strain"').replace('"1000 * time"', '"-1000 * time"')
+                             .replace('x = "True', 'error = 1e3\nx = "True'))
+
+    def test_trials_that_fail_are_told_and_do_not_end_it(self):
+        fit = FIT.replace("hardening_coefficient", "poissons_ratio").replace("least = 50\nmost = 1000\nunit = \"MPa\"",
+                                                                            "least = 0.1\nmost = 0.9")
+        done = self.identify(fit, "--jobs", "2", start=0.495)
+        self.assertIn(done.returncode, (0, 1), done.stderr)
+        self.assertIn("poissons_ratio=0.50", done.stderr)
+        self.assertIn("fails", (self.folder / "fit/log.txt").read_text())
+        self.assertGreater(tomllib.loads((self.folder / "fit/result.toml").read_text())["failed_runs"], 0)
+
+    def test_keeps_the_best_values_when_stopped(self):
+        (self.folder / "fit.toml").write_text(FIT.format(evaluations=30, start=250, case="tension.toml",
+                                                         column="cube.von_mises_stress"))
+        run = subprocess.Popen([PROGRAM, "identify", "fit.toml"], cwd=self.folder, stdout=subprocess.DEVNULL,
+                               stderr=subprocess.PIPE, text=True, start_new_session=True)
+        run.stderr.readline()  # the first evaluation
+        os.killpg(run.pid, signal.SIGINT)
+        told = run.communicate(timeout=60)[1]
+        self.assertEqual(run.returncode, 4, told)
+        result = tomllib.loads((self.folder / "fit/result.toml").read_text())
+        self.assertFalse(result["converged"])
+        self.assertAlmostEqual(result["parameter"][0]["value"], 120, 3)
+
+    def test_parameters_that_change_nothing_have_no_interval(self):
+        done = self.identify(column="time")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("do not tell the parameters apart", done.stdout)
+        self.assertNotIn("low", tomllib.loads((self.folder / "fit/result.toml").read_text())["parameter"][0])
 
     def refusal(self, *words, **changes):
         done = self.identify(None, "--out", "other", **changes)
@@ -97,14 +138,26 @@ class Identify(unittest.TestCase):
         self.refusal("no file", "none.toml", "start = 5", case="none.toml", start=5)
         self.refusal("no column", "cube.von_mises_stress", column="cube.stress")
         self.refusal("allowed: columns", column="open('x')")
-        (self.folder / "curve.csv").write_text("strain,stress [MPa]\n0.1,abc\n")
-        self.refusal("row 2", "abc")
+        self.refusal("of one value", column="log(time, time)")
+        self.refusal("0 rows", "values at the start", column="log(-cube.von_mises_stress)")
+        self.refusal("evaluations is 0", evaluations=0)
+        (self.folder / "curve.csv").write_text("strain,stress [MPa]\n# measured\n0.1,abc\n")
+        self.refusal("line 3", "abc")
+        (self.folder / "curve.csv").write_text("strain,stress [MPaa]\n0.1,200\n0.2,300\n")
+        self.refusal("'MPaa' is not a unit")
+        (self.folder / "curve.csv").write_text("strain,stress [MPa]\n0.1,200\n0.2,300\n")
+        self.refusal("2 measured points cannot tell 2 parameters")
         (self.folder / "curve.csv").write_text("strain,stress [MPa]\n0.1,200\n0.9,300\n0.95,310\n")
         self.refusal("covers x from", "let the run go on")
         done = self.identify(FIT.replace("least", "lest", 1))
         self.assertEqual(done.returncode, 2)
         self.assertIn("did you mean 'least'", done.stderr)
         self.assertIn("needs least", done.stderr)
+        for before, after, told in (('"tension"', '"../x"', "as for a file"), ('"B"', '"A"', "2 parameters have the name"),
+                                    ('x = "strain"', 'x = 3', "curve 1.x is 3"), ('"strain"', '"strain(1)"', "allowed")):
+            done = self.identify(FIT.replace(before, after, 1))
+            self.assertEqual((done.returncode, told in done.stderr), (2, True), done.stderr)
+        self.assertIn("--jobs is -1", self.identify(FIT, "--jobs=-1").stderr)
 
     def test_a_key_that_the_case_has_not_is_its_error(self):
         done = self.identify(FIT.replace("yield_stress", "yield_stres"))
