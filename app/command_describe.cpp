@@ -21,7 +21,7 @@ struct DescribeArguments {
 
 using Describe = std::string (*)(std::string const& name, Layout layout);
 
-/// What 0 and 1 of a unit are in SI base units.
+/// Converts 0 and 1 of a unit to SI base units: the offset, and with it the factor.
 std::string describe_unit(std::string const& name, Layout) {
   std::string text;
   for (char const* const number : {"0 ", "1 "}) {

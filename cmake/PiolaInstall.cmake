@@ -92,7 +92,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME piola)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3, python3-numpy, python3-meshio, python3-scipy")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "gmsh, python3-h5py, python3-netcdf4, python3-matplotlib")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "gmsh, python3-h5py, python3-netcdf4")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
     "Piola computes the fast motion of solids that deform, flow and break, with\nsmoothed particle \
 hydrodynamics. Cases are text files; results open in\nParaView. This package has the program, its examples and its \

@@ -67,6 +67,9 @@ expect 0 "completed, t = 20 ms" "$program" watch bar-results
 expect 0 "top.displacement x from" "$program" watch bar-results top.displacement_x --once
 expect 2 'did you mean "top.displacement_x"' "$program" watch bar-results top.displacement_y
 expect 2 "holds no run" "$program" watch page
+expect 0 "1 kN/mm = 1000000 in SI units" "$program" describe unit kN/mm
+expect 0 "0 degC = 273.15 in SI units" "$program" describe unit degC
+expect 2 "is not a unit" "$program" describe unit parsnips
 expect 0 "piola plot" "$program" describe man-page
 expect 0 "complete -F _piola piola" "$program" describe completion
 expect 0 "drawn to look/shape.png" "$program" render --shape bar.toml -o look/shape.png --size 300 240

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Types what the manual says: every key, path, command, field, column and file of README.md and docs/ must exist."""
+import importlib
 import json
 import os
 import re
@@ -60,6 +61,8 @@ TABLES["body.formulation"] = TABLES["body.formulation"] | names_after("formulati
 FREE = {"constants", "body.define"}
 LIBRARY = {"about", "range", "lacks", "shear_modulus", "bulk_modulus"}  # keys that materials of library files have, too
 CHECKS = set(re.findall(r'"([a-z_]+)"', (ROOT / "src/piola/verification/checks.cpp").read_text()))
+sys.path.insert(0, str(ROOT / "python"))
+FIT = importlib.import_module("piola_identify.problem").KEYS
 FIELDS = listed("Fields of frames and pictures")
 COLUMNS = listed("Columns of history.csv") | set(re.findall(r'DiagnosticInfo\{"(\w+)"', "\n".join(
     path.read_text() for path in (ROOT / "src/piola/formulations").rglob("options.cpp"))))
@@ -91,7 +94,8 @@ def check_table(page, line, table, section):
     for key, value in table.items():
         counts["keys"] += 1
         path = f"{section}.{key}" if section else key
-        if section not in FREE and key not in TABLES[section]:
+        free = section in FREE or (section == "body.material" and "library" in table)  # a law of the user
+        if not free and key not in TABLES[section]:
             complain(page, line, f'"{key}" is no key of {section or "a case"}')
             continue
         for item in value if isinstance(value, list) else [value]:
@@ -144,6 +148,12 @@ def check_blocks(page, text):
             elif "parameters" in table:  # of a study
                 for key in table["parameters"]:
                     check_path(page, line, key)
+            elif "parameter" in table:  # of an identification
+                for kind in ("parameter", "curve"):
+                    for key in {key for row in table[kind] for key in row} - FIT[kind]:
+                        complain(page, line, f'"{key}" is no key of {kind} of piola identify')
+                for row in table["parameter"]:
+                    check_path(page, line, row["key"])
             elif table.keys() & {"sources", "material"} == {"sources", "material"}:  # a library file
                 for material in table["material"]:
                     check_table(page, line, {k: v for k, v in material.items() if k not in LIBRARY}, "body.material")

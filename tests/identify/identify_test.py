@@ -153,8 +153,8 @@ class Identify(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("did you mean 'least'", done.stderr)
         self.assertIn("needs least", done.stderr)
-        for before, after, told in (('"tension"', '"../x"', "as for a file"), ('"B"', '"A"', "2 parameters have the name"),
-                                    ('x = "strain"', 'x = 3', "curve 1.x is 3"), ('"strain"', '"strain(1)"', "allowed")):
+        for before, after, told in (('"tension"', '"../x"', "as for a file"), ('x = "strain"', 'x = 3', "1.x is 3"),
+                                    ('"B"', '"A"', "have the name"), ('"strain"', '"strain(1)"', "allowed")):
             done = self.identify(FIT.replace(before, after, 1))
             self.assertEqual((done.returncode, told in done.stderr), (2, True), done.stderr)
         self.assertIn("--jobs is -1", self.identify(FIT, "--jobs=-1").stderr)
