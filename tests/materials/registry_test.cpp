@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/materials/registry.hpp"
+#include "piola/materials/block/own_laws.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
 #include <gtest/gtest.h>
 #include <string_view>
@@ -16,7 +17,7 @@ TEST(Laws, AreFoundByTheirNamesAndNumberedInOrder) {
     EXPECT_EQ(find_law(law.name)->index, law.index);
     EXPECT_FALSE(law.about.empty());
   }
-  EXPECT_EQ(index, Laws::size + Strengths::size);
+  EXPECT_EQ(index, Laws::size + Strengths::size + static_cast<int>(block_laws::own_laws().size()));
   EXPECT_FALSE(find_law("no_such_law").has_value());
 }
 
@@ -45,7 +46,7 @@ TEST(EquationsOfState, GoWithTheirStrengths) {
 
 TEST(Laws, AreEachPickedByTheirNumber) {
   for (LawInfo const& law : laws()) {
-    if (law.hypoelastic) continue;
+    if (law.hypoelastic || law.block != nullptr) continue;
     MaterialParameters material;
     material.law = law.index;
     material.value[0] = 1000;

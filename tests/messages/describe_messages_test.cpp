@@ -74,9 +74,7 @@ TEST(DescribeCommand, ExplainsOneThingOrListsAll) {
   expect_words(ask("describe kernel cubic_spline").text, {"support 2h"});
   Answer const unknown = ask("describe material neo_hooken");
   EXPECT_EQ(unknown.code, 2);
-  EXPECT_EQ(unknown.text,
-            "piola: no law or material is named \"neo_hooken\" (known: neo_hookean, johnson_cook, mooney_rivlin, "
-            "elastic, iron_armco, weldox_460_e, lead, beryllium and 42 more) - did you mean \"neo_hookean\"?\n");
+  expect_words(unknown.text, {"\"neo_hooken\"", "known: neo_hookean", "more)", "did you mean \"neo_hookean\"?"});
 }
 
 TEST(DescribeCommand, TellsOfSolidsAndOfTheLibrary) {

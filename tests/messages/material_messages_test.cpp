@@ -35,7 +35,7 @@ TEST(MaterialMessages, NumbersOfAnotherWordSayWhichWordTheyNeed) {
       {{"case.toml:10:118: body.material.hugoniot_s1", "eos = \"mie_grueneisen\"", "remove", "mie_grueneisen"},
        {"case.toml:10:140: body.material.bulk_sound_speed", "eos = \"stiffened_gas\" or \"mie_grueneisen\"", "remove",
         "stiffened_gas"},
-       {"case.toml:10:143:", "damage", "body.material", "law, name, eos", "spall_pressure", "choose"}}));
+       {"case.toml:10:143:", "damage", "body.material", "law, name, library, eos", "spall_pressure", "choose"}}));
 }
 
 TEST(MaterialMessages, AWordBringsTheNumbersThatItNeeds) {

@@ -26,7 +26,7 @@ void read_count(Node const& root, char const* key, int& target, Problems& proble
 Node from_case_folder(std::string const& key, Node value, std::filesystem::path const& study,
                       std::filesystem::path const& of_case) {
   namespace fs = std::filesystem;
-  bool const names_file = key == "file" || key.ends_with(".file");
+  bool const names_file = key == "file" || key.ends_with(".file") || key.ends_with(".material.library");
   if (names_file && value.is_text() && !fs::path(value.text).is_absolute())
     value.text = fs::proximate(study / value.text, of_case).string();
   for (Node::Entry& entry : value.entries) entry.value = from_case_folder(entry.key, entry.value, study, of_case);

@@ -113,14 +113,15 @@ void check_solid(MaterialParameters const& material, bool stress_free, Problems&
 void check_block_law(MaterialParameters const& material, bool stress_free, bool solids, Problems& problems) {
   LawInfo const& law = law_of(material);
   if (stress_free)
-    problems.add({}, fmt::format("formulation: assumption is for Piola's hyperelastic laws, and {} is one of a library "
+    problems.add({}, fmt::format("formulation: assumption does not go with {}, a law on blocks of points "
                                  "(allowed: as_dimension, plane_strain, uniaxial_strain) - leave it out",
                                  law.name));
   if (solids)
-    problems.add({},
-                 fmt::format("material: {} of a library and a solid in rate form cannot be one body (allowed: parts "
-                             "with hyperelastic laws or laws of libraries) - make the parts bodies and tie them",
-                             law.name));
+    problems.add(
+        {}, fmt::format(
+                "material: {}, a law on blocks of points, and a solid in rate form cannot be one body (allowed: parts "
+                "with hyperelastic laws or laws of libraries) - make the parts bodies and tie them",
+                law.name));
 }
 
 /// Rejects materials that cannot be in one body.
