@@ -105,7 +105,7 @@ TEST(NodalBlockLaw, OnePartOfABodyMayHaveIt) {
   Assembly refused = tumbling(3, own_rubber(), 0, 20);
   refused.parts = {{metals::copper()}};
   refused.particles.part.own().assign(refused.particles.X.size(), 0);
-  EXPECT_TRUE(test::mentions(refusal(refused), {"library", "rate form", "tie"}));
+  EXPECT_TRUE(test::mentions(refusal(refused), {"blocks of points", "rate form", "tie"}));
 }
 
 int fails_in_tension(piola_points const* at) {
