@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "signals.hpp"
 #include "piola/materials/block_law.hpp"
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdint>
@@ -53,14 +55,18 @@ extern "C" void on_checkpoint_signal(int signal, siginfo_t*, void*) {
     stop_signal.compare_exchange_strong(none, signal);
 }
 
-/// Says that code of a user's library crashed, if it did, and ends the program as the signal does.
+constexpr std::array crash_signals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+std::array<struct sigaction, crash_signals.size()> before_crash;  ///< what was done on them before, as by sanitizers
+
+/// Says that code of a user's library crashed, if it did, then does what was done on the signal before.
 extern "C" void on_crash(int signal, siginfo_t*, void*) {
   if (char const* const law = running_block_law()) {
     for (char const* text : {"piola: the law ", law, " crashed in its library (", name_of_crash(signal),
                              ") - try it with 'piola test-material', or build it with -g -fsanitize=address\n"})
       if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) break;
   }
-  std::signal(signal, SIG_DFL);
+  auto const place = std::find(crash_signals.begin(), crash_signals.end(), signal) - crash_signals.begin();
+  sigaction(signal, &before_crash[static_cast<std::size_t>(place)], nullptr);
   ::raise(signal);
 }
 
@@ -88,7 +94,10 @@ void catch_stop_signals() {
 }
 
 void tell_crashes_of_laws() {
-  for (int const signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) on(signal, on_crash);
+  for (std::size_t k = 0; k < crash_signals.size(); ++k) {
+    sigaction(crash_signals[k], nullptr, &before_crash[k]);
+    on(crash_signals[k], on_crash);
+  }
 }
 
 void ignore_stop_signals() {

@@ -103,8 +103,9 @@ def with_absolute_files(value: Any, folder: str) -> Any:
     if not isinstance(value, dict):
         return value
     changed = {key: with_absolute_files(entry, folder) for key, entry in value.items()}
-    if "file" in changed:
-        changed["file"] = absolute(changed["file"])
-    if isinstance(changed.get("library"), list):
-        changed["library"] = [absolute(name) for name in changed["library"]]
+    for key in ("file", "library"):
+        if isinstance(changed.get(key), list):
+            changed[key] = [absolute(name) for name in changed[key]]
+        elif key in changed:
+            changed[key] = absolute(changed[key])
     return changed

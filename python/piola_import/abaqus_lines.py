@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .lsdyna_cards import MOST_INCLUDES, number, read_text
+from .lsdyna_cards import MOST_INCLUDES, numbers_of, read_text
 
 
 @dataclass
@@ -30,15 +30,7 @@ class Keyword:
 
     def values(self, row, problems, count=8):
         """The numbers of a line, 0 for what is missing; what is no number is a problem."""
-        found = []
-        for text in (self.fields(row) + [""] * count)[:count]:
-            try:
-                found.append(number(text.encode()))
-            except ValueError:
-                problems.add(self.at(row), f"\"{text[:30]}\" is not a number (*{self.name}) - correct it",
-                             "is not a number")
-                found.append(0.0)
-        return found
+        return numbers_of((self.fields(row) + [""] * count)[:count], problems, self.at(row), self.name)
 
     def table(self, count, problems):
         """Numbers (n, count) of lines alike; lines that end early have zeros."""

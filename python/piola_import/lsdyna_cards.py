@@ -38,15 +38,19 @@ class Block:
 
     def card(self, row, problems, count=8, widths=None):
         """The numbers of a line, 0 for empty fields; what is no number is a problem."""
-        numbers = []
-        for text in self.fields(row, widths or (10,) * count)[:count]:
-            try:
-                numbers.append(number(text.encode()))
-            except ValueError:
-                problems.add(self.at(row), f"\"{text[:30]}\" is not a number (*{self.keyword}) - correct the field",
-                             "is not a number")
-                numbers.append(0.0)
-        return numbers
+        return numbers_of(self.fields(row, widths or (10,) * count)[:count], problems, self.at(row), self.keyword)
+
+
+def numbers_of(fields, problems, place, keyword):
+    """The numbers of texts, 0 for empty ones; what is no number is a problem at this place, and 0."""
+    found = []
+    for text in fields:
+        try:
+            found.append(number(text.encode()))
+        except ValueError:
+            problems.add(place, f"\"{text[:30]}\" is not a number (*{keyword}) - correct it", "is not a number")
+            found.append(0.0)
+    return found
 
 
 def number(text):

@@ -69,6 +69,16 @@ class InFolder(unittest.TestCase):
         self.assertNotIn("Traceback", done.stderr)
         return done.stdout + done.stderr
 
+    def check_material(self, case, wanted):
+        """The first body's material has these keys alone, with these values."""
+        found = case["body"][0]["material"]
+        self.assertEqual(set(found), set(wanted))
+        for key, value in wanted.items():
+            if isinstance(value, str):
+                self.assertEqual(found[key], value)
+            else:
+                self.assertAlmostEqual(found[key] / value, 1, places=9, msg=key)
+
     def imported(self, name, text, *arguments):
         """Writes a file, imports it into "out", checks the case with piola check; returns case, output, its check."""
         Path(name).write_text(text, encoding="utf-8")

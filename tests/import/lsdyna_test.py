@@ -135,13 +135,7 @@ class Materials(InFolder):
     def material(self, text, number_of_eos=0, **wanted):
         parts = part_card(1, "bar", 1, number_of_eos)
         case, output, _ = self.imported("m.k", deck(text, parts=parts, counts=(3, 3, 3), lengths=(30, 30, 30)), *UNITS)
-        found = case["body"][0]["material"]
-        self.assertEqual(set(found), set(wanted))
-        for key, value in wanted.items():
-            if isinstance(value, str):
-                self.assertEqual(found[key], value)
-            else:
-                self.assertAlmostEqual(found[key] / value, 1, places=9, msg=key)
+        self.check_material(case, wanted)
         return output
 
     def test_plastic_kinematic(self):

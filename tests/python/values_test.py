@@ -81,7 +81,7 @@ class Values(InFolder):
         Path("a/part.stl").write_text("solid")
         shape = {"mesh": {"file": "part.stl"}, "spacing": 0.1}
         Path("a/case.toml").write_text(piola.toml.document_text({"title": "t", "library": ["my.toml"], "body": [
-            {"name": "part", "shape": shape}]}))
+            {"name": "part", "shape": shape, "material": {"library": "law.so"}}]}))
         case = piola.Case.read("a")
         case.save("a/other.toml")
         self.assertEqual(piola.Case.read("a/other.toml"), case)
@@ -89,6 +89,7 @@ class Values(InFolder):
         moved = piola.Case.read("b")
         self.assertTrue(os.path.samefile(moved["body.part.shape.mesh.file"], "a/part.stl"))
         self.assertEqual(moved["library"], [os.path.abspath("a/my.toml")])
+        self.assertEqual(moved["body.part.material.library"], os.path.abspath("a/law.so"))
 
 
 class Notebooks(InFolder):

@@ -78,20 +78,6 @@ fs::path place_of_kept(KeptFile const& file, fs::path const& results, Place cons
   return {};
 }
 
-void point_to_kept(Node& node, std::vector<KeptFile> const& list, fs::path const& results, Problems& problems) {
-  auto const point = [&](Node& text) {
-    KeptFile const* const file = text.is_text() ? find_kept(list, text.text) : nullptr;
-    if (file != nullptr) text.found_at = place_of_kept(*file, results, text.place, problems).string();
-  };
-  for (Node::Entry& entry : node.entries) {
-    if (entry.key == "file" || entry.key == "library") point(entry.value);
-    if (entry.key == "library")
-      for (Node& item : entry.value.items) point(item);
-    point_to_kept(entry.value, list, results, problems);
-  }
-  for (Node& item : node.items) point_to_kept(item, list, results, problems);
-}
-
 }  // namespace
 
 CaseFile case_file(Node const& text) {
@@ -125,34 +111,15 @@ std::string digest_of_file(fs::path const& path) {
 
 std::vector<CaseFile> files_named_in(Node const& root) {
   std::vector<CaseFile> files;
-  auto const add = [&](Node const& node) {
-    auto const more = files_named_in(node);
-    files.insert(files.end(), more.begin(), more.end());
-  };
-  for (Node::Entry const& entry : root.entries)
-    if (entry.key == "file" && entry.value.is_text())
-      files.push_back(case_file(entry.value));
-    else
-      add(entry.value);
-  for (Node const& item : root.items) add(item);
+  each_file_name(root, [&](Node const& text) { files.push_back(case_file(text)); });
   return files;
 }
 
 std::vector<CaseFile> files_of(CaseSpec const& spec) {
   std::vector<CaseFile> all;
-  auto const add = [&](std::vector<CaseFile> const& files) {
-    for (CaseFile const& file : files)
-      if (std::none_of(all.begin(), all.end(), [&](CaseFile const& other) { return other.given == file.given; }))
-        all.push_back(file);
-  };
-  add(spec.library_files);
-  for (BodySpec const& body : spec.bodies) {
-    add(body.shape.files);
-    add(body.law_files);
-    for (PartSpec const& part : body.parts) add(part.law_files);
-  }
-  for (RegionSpec const& region : spec.regions) add(region.files);
-  add(spec.named_files);
+  for (CaseFile const& file : spec.files)
+    if (std::none_of(all.begin(), all.end(), [&](CaseFile const& other) { return other.given == file.given; }))
+      all.push_back(file);
   return all;
 }
 
@@ -194,7 +161,11 @@ std::vector<KeptFile> read_kept_list(fs::path const& results) {
 }
 
 void use_kept_files(Node& root, fs::path const& results, Problems& problems) {
-  point_to_kept(root, read_kept_list(results), results, problems);
+  auto const list = read_kept_list(results);
+  each_file_name(root, [&](Node& text) {
+    if (KeptFile const* const file = find_kept(list, text.text))
+      text.found_at = place_of_kept(*file, results, text.place, problems).string();
+  });
 }
 
 void compare_with_kept_list(CaseSpec const& spec, fs::path const& results, Problems& problems) {

@@ -6,6 +6,7 @@
 #include "piola/setup/shapes.hpp"
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace piola {
@@ -38,7 +39,26 @@ std::string content_hash(std::filesystem::path const& path);
 /// Digest of the content of a file; empty if it is no ordinary file or cannot be read.
 std::string digest_of_file(std::filesystem::path const& path);
 
-/// The files that the keys `file` of a document name, in its order.
+/// Whether the value of a key names a file, or is a list of texts that do.
+inline bool names_files(std::string_view key) { return key == "file" || key == "library"; }
+
+/// Calls f(text) for each text below `root`, a Node, that names a file, in the order of the document.
+template <class AnyNode, class F>
+void each_file_name(AnyNode& root, F const& f) {
+  auto const take = [&](auto& node) {
+    if (node.is_text()) f(node);
+  };
+  for (auto& entry : root.entries) {
+    if (names_files(entry.key)) {
+      take(entry.value);
+      for (auto& item : entry.value.items) take(item);
+    }
+    each_file_name(entry.value, f);
+  }
+  for (auto& item : root.items) each_file_name(item, f);
+}
+
+/// The files that a document names, in its order.
 std::vector<CaseFile> files_named_in(Node const& root);
 
 /// All files that a case reads, each once, in the order of the case.

@@ -56,7 +56,6 @@ struct PartSpec {
   std::optional<std::size_t> region = {};  ///< where `where` is a region with a shape and nothing else: its number
   MaterialParameters material;
   std::string law;
-  std::vector<CaseFile> law_files = {};  ///< the library of a law of the user's
   Places places;
 };
 
@@ -66,8 +65,7 @@ struct BodySpec {
   ShapeSpec shape;
   MaterialParameters material;
   std::string law;
-  std::vector<CaseFile> law_files = {};  ///< the library of a law of the user's
-  std::vector<PartSpec> parts;           ///< of other materials; the first that holds a particle counts
+  std::vector<PartSpec> parts;  ///< of other materials; the first that holds a particle counts
   FormulationSpec formulation;
   std::array<Expression, 3> initial_velocity;                             ///< m/s
   std::optional<std::array<Expression, 3>> initial_displacement;          ///< m
@@ -263,8 +261,7 @@ struct CaseSpec {
   std::vector<ProbeSpec> probes;
   std::vector<QuantitySpec> quantities;
   OutputSpec output;
-  std::vector<CaseFile> library_files;  ///< key `library`; bodies hold what they take from them
-  std::vector<CaseFile> named_files;    ///< of all keys `file`
+  std::vector<CaseFile> files;  ///< that the case names; bodies and regions hold what they take from them
 };
 
 }  // namespace piola

@@ -251,7 +251,7 @@ void read_library_file(std::string_view text, std::string const& name, MaterialL
     problems.add({name, 0, 0}, "the library is empty (allowed: materials and sources) - add [[material]]");
 }
 
-CaseLibrary read_case_library(Section const& top, std::vector<CaseFile>& files) {
+CaseLibrary read_case_library(Section const& top) {
   auto const value = top.find("library");
   if (!value) return std::nullopt;
   MaterialLibrary library = material_library();
@@ -260,7 +260,7 @@ CaseLibrary read_case_library(Section const& top, std::vector<CaseFile>& files) 
   for (std::size_t k = 0; items && k < items->size(); ++k) {
     Value const& item = (*items)[k];
     if (!read_text(item, top.problems())) continue;
-    CaseFile const& file = files.emplace_back(case_file(item.node));
+    CaseFile const file = case_file(item.node);
     try {
       read_library_file(read_text_file(file.path, most_case_bytes), file.path.string(), library, top.problems());
     } catch (FileError const& error) {

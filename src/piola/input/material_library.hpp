@@ -28,8 +28,8 @@ void read_library_file(std::string_view text, std::string const& name, MaterialL
 /// material_library() is read only if a material of the case has a name.
 using CaseLibrary = std::optional<MaterialLibrary>;
 
-/// The library of a case; files of its key `library` are added to `files`. Throws InputError if a file has a problem:
-/// what names its materials could not be read either.
-CaseLibrary read_case_library(Section const& top, std::vector<CaseFile>& files);
+/// The library of a case, with the files of its key `library`. Throws InputError if a file has a problem: what names
+/// its materials could not be read either.
+CaseLibrary read_case_library(Section const& top);
 
 }  // namespace piola

@@ -106,7 +106,7 @@ void refuse_tables_over_time(Section const& section, std::string_view key, std::
 void check_law(Section const& section, BodySpec const& body) {
   auto const formulation = find_formulation(body.formulation.name);
   if (!formulation || body.law.empty()) return;
-  bool const of_library = !body.law_files.empty();
+  bool const of_library = !law_of(body.material).library.empty();
   auto const is_usable = [&](FormulationInfo const& info) {
     auto const& laws = info.laws;
     return of_library ? info.block_laws : std::find(laws.begin(), laws.end(), std::string_view(body.law)) != laws.end();

@@ -158,14 +158,12 @@ std::optional<std::string> law_name(Section const& section, CaseLibrary const& o
 }
 
 /// The law of a library of the user's: the one of the key `name`, or the only one.
-std::optional<LawInfo> law_of_library(Section const& section, Value const& library, BodySpec& body) {
+std::optional<LawInfo> law_of_library(Section const& section, Value const& library) {
   section.refuse("law", "is that of the library when \"library\" is given");
   if (!read_text(library, section.problems())) return std::nullopt;
-  CaseFile const file = case_file(library.node);
-  body.law_files = {file};
   std::vector<LawInfo> laws;
   try {
-    laws = load_laws(file.path);
+    laws = load_laws(case_file(library.node).path);
   } catch (LawLibraryError const& error) {
     section.problems().add(library.node.place, library.name + ": " + error.what());
     return std::nullopt;
@@ -214,7 +212,7 @@ void read_material(Section const& section, CaseLibrary const& library, BodySpec&
   LibraryMaterial const* base = nullptr;
   std::optional<LawInfo> law;
   if (auto const own = section.find("library"))
-    law = law_of_library(section, *own, body);
+    law = law_of_library(section, *own);
   else if (auto const name = law_name(section, library, base))
     law = find_law(*name);
   if (!law) return;

@@ -34,7 +34,6 @@ PartSpec read_part(Section const& section, BodyNames const& body, std::vector<Re
     read_material(*material, library, of);
     part.material = of.material;
     part.law = of.law;
-    part.law_files = of.law_files;
     part.places = of.places;
   }
   section.refuse_unknown();

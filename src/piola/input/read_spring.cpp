@@ -97,9 +97,4 @@ SpringSpec read_spring(Section const& section, BodyNames const& names, std::vect
   return spring;
 }
 
-void name_springs(std::vector<SpringSpec>& springs) {
-  for (std::size_t k = 0; k < springs.size(); ++k)
-    if (springs[k].name.empty()) springs[k].name = "spring_" + std::to_string(k);
-}
-
 }  // namespace piola

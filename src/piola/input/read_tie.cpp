@@ -70,9 +70,4 @@ TieSpec read_tie(Section const& section, std::vector<BodyNames> const& bodies, s
   return tie;
 }
 
-void name_ties(std::vector<TieSpec>& ties) {
-  for (std::size_t k = 0; k < ties.size(); ++k)
-    if (ties[k].name.empty()) ties[k].name = "tie_" + std::to_string(k);
-}
-
 }  // namespace piola

@@ -98,14 +98,16 @@ void read_rigid_motion(Section const& section, BodyNames const& names, RigidSpec
 void read_inertia(Section const& section, int dimension, RigidSpec& rigid);
 /// `names`: of the case; `rigids`: the shapes that a spring may name.
 SpringSpec read_spring(Section const& section, BodyNames const& names, std::vector<RigidSpec> const& rigids);
-/// Springs have columns whether they are named or not.
-void name_springs(std::vector<SpringSpec>& springs);
 /// Reads the rule for all bodies and those of pairs: a table, a list of tables, or "none".
 void read_contact(Value const& value, int dimension, Problems& problems, CaseSpec& spec);
 /// `rigids`: the rigid shapes that a tie may name.
 TieSpec read_tie(Section const& section, std::vector<BodyNames> const& bodies, std::vector<RigidSpec> const& rigids);
-/// Ties have columns whether they are named or not.
-void name_ties(std::vector<TieSpec>& ties);
+/// Gives ties or springs without a name KIND_0, KIND_1, ...: they have columns whether they are named or not.
+template <class Spec>
+void name_unnamed(std::string const& kind, std::vector<Spec>& specs) {
+  for (std::size_t k = 0; k < specs.size(); ++k)
+    if (specs[k].name.empty()) specs[k].name = kind + "_" + std::to_string(k);
+}
 ProbeSpec read_probe(Section const& section, std::vector<BodyNames> const& bodies);
 /// `spec` holds the bodies and the probes, which decide what columns there are.
 QuantitySpec read_quantity_section(Section const& section, CaseSpec const& spec,

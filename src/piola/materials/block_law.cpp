@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/materials/block_law.hpp"
+#include "piola/materials/finite_increment.hpp"
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
@@ -105,13 +106,10 @@ std::array<double, 6> BlockLaw::stress_at(std::array<double, 6> const& e) const 
                       &speed};
   update(points);
   if (corotated()) return {stress[0], stress[1], stress[2], stress[3], stress[4], stress[5]};
-  // sigma = P F^T / J
-  double const J =
-      F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
-  auto const sigma = [&](int i, int j) {
-    return (stress[3 * i] * F[3 * j] + stress[3 * i + 1] * F[3 * j + 1] + stress[3 * i + 2] * F[3 * j + 2]) / J;
-  };
-  return {sigma(0, 0), sigma(1, 1), sigma(2, 2), sigma(0, 1), sigma(1, 2), sigma(0, 2)};
+  Mat<3> gradient, P;
+  std::copy_n(F, 9, gradient.c);
+  std::copy_n(stress, 9, P.c);
+  return std::to_array(cauchy_stress(P, gradient, determinant(gradient)).c);
 }
 
 std::string problem_of_block_law(MaterialParameters const& material) {

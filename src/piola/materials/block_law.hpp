@@ -8,7 +8,7 @@
 
 namespace piola {
 
-/// A law that advances blocks of points, through the interface piola_material.h: one of a user's library.
+/// A law that advances blocks of points, through the interface piola_material.h: one of Piola or of a user's library.
 class BlockLaw {
  public:
   static constexpr int most_parameters = MaterialParameters::max_values - 1;  ///< without the density

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/math/tensor.hpp"
+#include <type_traits>
 
-/// Solids in rate form with known deformation gradients: their stress, and its increment between two of them. T is
+/// Stresses at known deformation gradients, and the increment of those of solids in rate form between two of them. T is
 /// double or lanes.
 namespace piola::inline PIOLA_BACKEND {
 
@@ -13,6 +14,16 @@ PIOLA_FN Mat<3, T> first_piola_of(SymMat<3, T> const& S, T const& pressure, Mat<
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) sigma(i, j) = i == j ? T(S(i, j) - pressure) : S(i, j);
   return sigma * cofactor(F);
+}
+
+/// Cauchy stress (1/J) P F^T [Pa], symmetrised.
+template <class T>
+PIOLA_FN SymMat<3, T> cauchy_stress(Mat<3, T> const& P, Mat<3, T> const& F, std::type_identity_t<T> const& J) {
+  Mat<3, T> const s = (1.0 / J) * (P * transpose(F));
+  SymMat<3, T> r;
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j) r(i, j) = 0.5 * (s(i, j) + s(j, i));
+  return r;
 }
 
 /// The trial deviator of a step: R S R^T + 2 mu dev d with l = (dF - I) ((dF + I)/2)^-1, dF = F F_n^-1, d and w its

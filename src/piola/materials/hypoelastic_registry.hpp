@@ -116,7 +116,7 @@ inline bool fails(MaterialParameters const& material) {
   return any;
 }
 
-/// Calls f(law) with the law of `material`, hyperelastic, a solid in rate form or of a library: for their common
+/// Calls f(law) with the law of `material`, hyperelastic, a solid in rate form or on blocks of points: for their common
 /// members.
 template <class F>
 void with_any_law(MaterialParameters const& material, F const& f) {

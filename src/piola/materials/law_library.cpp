@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/materials/law_library.hpp"
 #include "piola/materials/block_law.hpp"
+#include "piola/materials/elastic_constants.hpp"
 #include <algorithm>
 #include <cctype>
 #include <cstring>
@@ -12,8 +13,6 @@
 
 namespace piola {
 namespace {
-
-constexpr Parameter density{"density", "kg/m^3", "mass density in the reference configuration", positive};
 
 /// Texts and tables of a law, which LawInfo refers to.
 struct LoadedLaw {
@@ -90,7 +89,7 @@ LawInfo added(piola_material const& law, std::filesystem::path const& file) {
   LoadedLaw& of = kept.emplace_back();
   of.file = file.string();
   of.name = fmt::format("{} of {}", law.name, file.filename().string());
-  of.parameters.push_back(density);
+  of.parameters.push_back(ElasticConstants::parameters[0]);
   for (int k = 0; k < law.parameter_count; ++k) {
     piola_parameter const& p = law.parameters[k];
     of.parameters.push_back({p.name, p.unit, p.meaning, Interval{p.least, p.most}, p.preset});

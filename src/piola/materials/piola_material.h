@@ -64,8 +64,8 @@ typedef struct piola_points {
   const double *parameters; /* in the order of the description, SI */
   const double *F_old;      /* deformation gradient at the start of the step, 9 components, row by row */
   const double *F_new;      /* and at its end */
-  const double *U_old;      /* stretch at the start of the step, 6 components 11 22 33 12 23 13; NULL if the law */
-  const double *U_new;      /* works with the first Piola stress. And at the end of the step */
+  const double *U_old;      /* stretch at the start of the step, 11 22 33 12 23 13; NULL with PIOLA_FIRST_PIOLA */
+  const double *U_new;      /* and at its end */
   double *stress;           /* in: at the start of the step; out: at its end */
   double *energy;           /* per reference volume [J/m^3]. In: internal energy at the start, work of the stress;
                                out: the stored energy of elastic laws; Piola ignores it for all other laws */

@@ -22,8 +22,8 @@ struct LawInfo {
   bool elastic_rate = false;      ///< a hyperelastic law that also gives its stress rate (RateForm in laws.hpp)
   bool brittle = false;           ///< a solid whose damage is part of its strength
   std::span<Choice const> choices = {};
-  piola_material const* block = nullptr;  ///< a law that works on blocks of points (block_law.hpp); density, then its
-                                          ///< own parameters
+  piola_material const* block = nullptr;  ///< description of a law on blocks of points (block_law.hpp), whose first
+                                          ///< parameter is the density; null: another law
   std::string_view library{};             ///< file of a law of the user's; empty: the law is Piola's
   int index = 0;                          ///< index in the registry, for MaterialParameters::law
 };

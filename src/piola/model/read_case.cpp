@@ -158,7 +158,7 @@ Names read_regions(Section const& top, std::map<std::string, double> const& cons
 
 void read_bodies(Section const& top, Names const& common, CaseSpec& spec, std::vector<BodyNames>& names,
                  ReadLimits const& limits) {
-  CaseLibrary const library = read_case_library(top, spec.library_files);
+  CaseLibrary const library = read_case_library(top);
   std::size_t const before = top.problems().count();
   std::vector<Section> const sections = tables_of(top, "body");
   for (Section const& section : sections) {
@@ -185,10 +185,11 @@ void read_bodies(Section const& top, Names const& common, CaseSpec& spec, std::v
   check_size(sections, spec, limits);
 }
 
+/// Title, geometry and [run], and what the document itself tells.
 void read_head(Document const& document, Section const& top, CaseSpec& spec) {
   spec.source = document.source;
   spec.old_spellings = document.old_spellings;
-  spec.named_files = files_named_in(document.root);
+  spec.files = files_named_in(document.root);
   if (auto const run = top.table("run")) read_run(*run, spec.run);
   spec.axisymmetric = top.word_index("geometry") == 1;
   std::string& title = spec.title;
@@ -204,10 +205,8 @@ void read_rigids(std::vector<Section> const& shapes, std::vector<Section> const&
                  CaseSpec& spec) {
   for (Section const& section : shapes) spec.rigids.push_back(read_rigid(section, names));
   for (Section const& section : springs) spec.springs.push_back(read_spring(section, names, spec.rigids));
-  name_springs(spec.springs);
+  name_unnamed("spring", spec.springs);
 }
-
-/// Title, geometry and [run], and what the document itself tells.
 
 CaseSpec read_document(Document const& document, Problems& problems, ReadLimits const& limits) {
   Section const top(document.root, "", problems);
@@ -229,7 +228,7 @@ CaseSpec read_document(Document const& document, Problems& problems, ReadLimits 
   if (auto const contact = top.find("contact")) read_contact(*contact, dimension, problems, spec);
   std::vector<Section> const ties = tables_of(top, "tie");
   for (Section const& section : ties) spec.ties.push_back(read_tie(section, names, spec.rigids));
-  name_ties(spec.ties);
+  name_unnamed("tie", spec.ties);
   std::vector<Section> const probes = tables_of(top, "probe");
   for (Section const& section : probes) spec.probes.push_back(read_probe(section, names));
   std::vector<ColumnOwner> owners;

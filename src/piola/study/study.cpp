@@ -2,7 +2,7 @@
 #include "piola/study/study.hpp"
 #include "piola/base/contracts.hpp"
 #include "piola/base/text.hpp"
-#include "piola/input/document.hpp"
+#include "piola/input/case_files.hpp"
 #include "piola/output/atomic_file.hpp"
 #include "piola/output/summary.hpp"
 #include <algorithm>
@@ -21,17 +21,17 @@ void read_count(Node const& root, char const* key, int& target, Problems& proble
     problems.add(node->place, fmt::format("{} is not a whole number from 1 to 1024 - correct it", key));
 }
 
-/// A value of a key that names files, with relative paths that start from the folder of the case in place of that of
-/// the study.
+/// A value of a dotted key, in which relative paths of files start from the folder of the case in place of that of the
+/// study.
 Node from_case_folder(std::string const& key, Node value, std::filesystem::path const& study,
                       std::filesystem::path const& of_case) {
-  namespace fs = std::filesystem;
-  bool const names_file = key == "file" || key.ends_with(".file") || key.ends_with(".material.library");
-  if (names_file && value.is_text() && !fs::path(value.text).is_absolute())
-    value.text = fs::proximate(study / value.text, of_case).string();
-  for (Node::Entry& entry : value.entries) entry.value = from_case_folder(entry.key, entry.value, study, of_case);
-  for (Node& item : value.items) item = from_case_folder("", item, study, of_case);
-  return value;
+  Node holder;  // with the last part of the key, which tells whether the value names files
+  holder.entries.push_back({key.substr(key.rfind('.') + 1), {}, std::move(value)});
+  each_file_name(holder, [&](Node& text) {
+    if (!std::filesystem::path(text.text).is_absolute())
+      text.text = std::filesystem::proximate(study / text.text, of_case).string();
+  });
+  return std::move(holder.entries.front().value);
 }
 
 /// The folders of study and case, if they are not the same.

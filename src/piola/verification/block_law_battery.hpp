@@ -6,7 +6,7 @@
 
 namespace piola {
 
-/// A check of a law of a library.
+/// A check of a law on blocks of points.
 struct LawCheck {
   std::string what;  ///< what must hold
   double value = 0;  ///< what was measured

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/common/output_fields.hpp"
 #include "piola/base/units.hpp"
+#include "piola/materials/finite_increment.hpp"
 #include <gtest/gtest.h>
 #include <set>
 #include <stdexcept>

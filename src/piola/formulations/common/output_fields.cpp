@@ -84,12 +84,4 @@ std::vector<FieldInfo> field_infos(std::span<std::string_view const> offered) {
   return infos;
 }
 
-SymMat<3> cauchy_stress(Mat<3> const& P, Mat<3> const& F, double J) {
-  Mat<3> const s = (1.0 / J) * (P * transpose(F));
-  SymMat<3> r;
-  for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j) r(i, j) = 0.5 * (s(i, j) + s(j, i));
-  return r;
-}
-
 }  // namespace piola

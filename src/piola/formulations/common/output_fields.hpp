@@ -30,7 +30,7 @@ struct ParticleOutput {
   double contact_pressure = 0;         ///< [Pa]
   double contact_gap = 0, slip = 0;    ///< [m]
   double friction_heat = 0;            ///< [J/m2]
-  double law_value = 0;                ///< value that the law of a library keeps and that is asked for
+  double law_value = 0;                ///< history value of a law on blocks of points that is asked for
 };
 
 /// A field of frames, probes and pictures.
@@ -55,8 +55,5 @@ std::vector<FieldInfo> field_infos(std::span<std::string_view const> offered);
 inline void put(OutputField const& field, ParticleOutput const& particle, std::span<double> values) {
   field.put(particle, &values[static_cast<std::size_t>(particle.id) * static_cast<std::size_t>(field.components)]);
 }
-
-/// (1/J) P F^T [Pa].
-SymMat<3> cauchy_stress(Mat<3> const& P, Mat<3> const& F, double J);
 
 }  // namespace piola

@@ -4,6 +4,7 @@
 #include "piola/domain/communicator.hpp"
 #include "piola/formulations/common/output_fields.hpp"
 #include "piola/formulations/common/sample_local.hpp"
+#include "piola/materials/finite_increment.hpp"
 #include "piola/materials/laws.hpp"
 #include <array>
 #include <cmath>

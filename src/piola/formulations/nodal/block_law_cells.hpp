@@ -9,8 +9,8 @@
 #include "piola/math/embedding.hpp"
 #include "piola/math/polar.hpp"
 
-/// Cells of laws that advance blocks of points (materials/block_law.hpp). Theory: docs/theory/nodal.md, "Laws of
-/// libraries".
+/// Cells of laws that advance blocks of points (materials/block_law.hpp). Theory: docs/theory/nodal.md, "Laws on
+/// blocks of points".
 namespace piola::nodal::inline PIOLA_BACKEND {
 
 /// The points of a group of cells in the arrays of piola_points: point q of the cell in lane l is q * lane_count + l.
@@ -28,8 +28,8 @@ struct PointBlock {
   }
 };
 
-/// Interface of such a law for UpdateStress. The law sees gradients whose volume ratio is the mean one of their cell,
-/// (Jm/J_q)^(1/3) F_q; stabilisation resists differences of J_q within a cell.
+/// A law on blocks of points, as UpdateStress calls it. The law sees gradients whose volume ratio is the mean one of
+/// their cell, (Jm/J_q)^(1/3) F_q; stabilisation resists differences of J_q within a cell.
 template <int D>
 class BlockLawCells {
  public:
@@ -261,7 +261,7 @@ class BlockLawCells {
   /// the gradient with the mean volume ratio.
   PIOLA_FN Mat<3, Lanes> elastic_trial(Index i, Cell const& old, Cell const& now, int q,
                                        Mat<3, Lanes> const& before) const {
-    SymMat<3, Lanes> S = cauchy(before, old, q);
+    SymMat<3, Lanes> S = cauchy_stress(before, old.even[q], old.mean_J);
     Lanes const mean = take_mean(S);
     Lanes const bulk = in_.template scalar<Lanes>(i, At::modulus) - 4.0 / 3 * law_->mu;
     return first_piola_of(trial_deviator(S, law_->mu, old.even[q], now.even[q]),
@@ -273,7 +273,8 @@ class BlockLawCells {
   PIOLA_FN Lanes yielding_spread(Cell const& old, Cell const& now, int q, Mat<3, Lanes> const& before,
                                  Mat<3, Lanes> const& after, Lanes const& spread) const {
     constexpr double stays = 0.01;
-    SymMat<3, Lanes> S_old = cauchy(before, old, q), S = cauchy(after, now, q);
+    SymMat<3, Lanes> S_old = cauchy_stress(before, old.even[q], old.mean_J),
+                     S = cauchy_stress(after, now.even[q], now.mean_J);
     take_mean(S_old);
     take_mean(S);
     Lanes const trial = von_mises(trial_deviator(S_old, law_->mu, old.even[q], now.even[q])), left = von_mises(S);
@@ -282,13 +283,6 @@ class BlockLawCells {
     return share * (spread - stays * elastic_old + (1 - stays) * (elastic - elastic_old)) + stays * elastic;
   }
 
-  PIOLA_FN static SymMat<3, Lanes> cauchy(Mat<3, Lanes> const& P, Cell const& cell, int q) {
-    Mat<3, Lanes> const s = (1.0 / cell.mean_J) * (P * transpose(cell.even[q]));
-    SymMat<3, Lanes> r;
-    for (int i = 0; i < 3; ++i)
-      for (int j = i; j < 3; ++j) r(i, j) = 0.5 * (s(i, j) + s(j, i));
-    return r;
-  }
   /// Leaves the deviator; returns the mean stress [Pa].
   PIOLA_FN static Lanes take_mean(SymMat<3, Lanes>& S) {
     Lanes const mean = (1.0 / 3.0) * (S.c[0] + S.c[1] + S.c[2]);

@@ -84,7 +84,7 @@ void FieldSetUp::fill_initial() {
 
 void FieldSetUp::fill_histories() {
   int const D = s_.dimension;
-  for (MaterialRange const& range : std::span(s_.materials, static_cast<std::size_t>(s_.material_count))) {
+  for (MaterialRange const& range : body_.materials()) {
     if (range.block != nullptr && !range.block->elastic()) fill_block_history(range);
     with_solid(range.material, [&](auto const& law) {
       for (Index i = std::max(range.first, body_.own().first); i < std::min(range.last, body_.own().last); ++i) {

@@ -31,7 +31,7 @@ class FieldSetUp {
   void fill_offset(Backend const& backend);
 
  private:
-  /// History of a law of a library at the start.
+  /// History of a law on blocks of points at the start.
   void fill_block_history(MaterialRange const& range);
   std::span<MirroredParticle const> mirrored() const {
     return {s_.boundary.mirrored, static_cast<std::size_t>(s_.boundary.mirrored_count)};

@@ -41,8 +41,8 @@ struct HistoryLayout {
   static constexpr int point(int q, int D) { return of_cell + q * (F + D * D + (D == 2 ? 1 : 0)); }
 };
 
-/// Layout of the field `history` of laws of libraries that have a history, at the end of the last step. `count`: values
-/// of a point that the law keeps.
+/// Layout of the field `history` of laws on blocks of points that have a history, at the end of the last step. `count`:
+/// values of a point that the law keeps.
 struct BlockLawLayout {
   /// Values of the cell: specific internal energy [J/kg]; modulus of pressure waves [Pa].
   enum : int { energy, modulus, of_cell };
@@ -96,7 +96,7 @@ constexpr CellCondition condition_of(double value) {
 struct FieldNeeds {
   bool viscosity = false;
   bool solids = false;     ///< some cell has a solid in rate form
-  int block_history = -1;  ///< most values that a law of a library keeps at a point; -1: none has a history
+  int block_history = -1;  ///< most history values of a point by laws on blocks of points; -1: none has a history
   bool failure = false;    ///< cells may fail
   bool converts = false;   ///< cells that fail become Eulerian
   bool offset = false;     ///< F starts from given values

@@ -5,6 +5,7 @@
 #include "piola/domain/sum_over_slots.hpp"
 #include "piola/formulations/common/output_fields.hpp"
 #include "piola/formulations/common/sample_local.hpp"
+#include "piola/materials/finite_increment.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
 #include <algorithm>
 #include <array>
@@ -167,7 +168,7 @@ void add_fields_of_laws(NodalBody const& body, std::vector<FieldInfo>& fields) {
 
 namespace {
 
-/// Mean over the points of a cell of a value that the law of a library keeps; 0 if it keeps none of this name.
+/// Mean over the points of a cell of a history value of a law on blocks of points; 0 if it has none of this name.
 double law_value(NodalBody const& body, Index i, std::string_view name) {
   BlockLaw const* const law = body.material(i).block;
   int const h = law == nullptr ? -1 : law->history_index(name);
@@ -180,8 +181,8 @@ double law_value(NodalBody const& body, Index i, std::string_view name) {
   return sum / points;
 }
 
-/// The field of this name: a value that the law of a library keeps, else one that the formulation offers. A body whose
-/// laws have no such value shows zero.
+/// The field of this name: a history value of a law on blocks of points, else one that the formulation offers. A body
+/// whose laws have no such value shows zero.
 OutputField field_of(NodalBody const& body, std::string_view name) {
   bool kept = std::find(offered.begin(), offered.end(), name) == offered.end();
   for (MaterialRange const& range : body.materials())

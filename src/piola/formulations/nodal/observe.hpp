@@ -26,7 +26,7 @@ Diagnostics finish(NodalDiagnosticsSum sum);
 /// The fields of nodal bodies for frames and probes; `solids`: with those of solids in rate form; `converts`: and of
 /// cells that become Eulerian.
 std::vector<FieldInfo> output_field_names(bool solids, bool converts);
-/// Adds the values that laws of libraries keep at the points of a body.
+/// Adds the history values of laws on blocks of points.
 void add_fields_of_laws(NodalBody const& body, std::vector<FieldInfo>& fields);
 
 /// Gathers one field of one body on root, values[id * components + c]. Collective if the body is distributed. Throws

@@ -109,7 +109,7 @@ void check_solid(MaterialParameters const& material, bool stress_free, Problems&
                              law_of(material).name));
 }
 
-/// Rejects what laws of libraries do not support.
+/// Rejects what laws on blocks of points do not support.
 void check_block_law(MaterialParameters const& material, bool stress_free, bool solids, Problems& problems) {
   LawInfo const& law = law_of(material);
   if (stress_free)
@@ -135,7 +135,7 @@ void check_parts(std::vector<MaterialParameters> const& materials, bool stress_f
                  "such as elastic) - take elastic for the hyperelastic part, or make the parts bodies and tie them");
 }
 
-/// Most values that one of the laws of libraries keeps at a point; -1: none has a history.
+/// Most history values of a point by laws on blocks of points; -1: none has a history.
 int most_block_history(std::vector<MaterialParameters> const& materials) {
   int most = -1;
   for (MaterialParameters const& material : materials)

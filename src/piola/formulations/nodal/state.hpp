@@ -43,10 +43,10 @@ struct MaterialRange {
   Constants constants;
   Index first, last;
   FailureConstants failure{};
-  BlockLaw const* block = nullptr;  ///< the law, if it is of a library
+  BlockLaw const* block = nullptr;  ///< the law, if it works on blocks of points; else null
 };
 
-/// Code of a FailureSlot: the law of a library fails. Added to it: the code of the law, 0 if its stress is not a
+/// Code of a FailureSlot: a law on blocks of points fails. Added to it: the code of the law, 0 if its stress is not a
 /// number.
 inline constexpr int failure_of_law = 1000;
 

@@ -67,18 +67,7 @@ int update(piola_points const* points) {
   return 0;
 }
 
-constexpr piola_material law{.interface_version = PIOLA_MATERIAL_INTERFACE,
-                             .name = "arruda_boyce",
-                             .about = "",
-                             .stress = PIOLA_FIRST_PIOLA,
-                             .properties = PIOLA_ELASTIC,
-                             .parameter_count = 0,
-                             .parameters = nullptr,
-                             .history_count = 0,
-                             .history = nullptr,
-                             .check = nullptr,
-                             .start = nullptr,
-                             .update = &update};
+constexpr piola_material law = describe("arruda_boyce", PIOLA_FIRST_PIOLA, PIOLA_ELASTIC, {}, nullptr, &update);
 
 }  // namespace
 }  // namespace arruda_boyce_law

@@ -206,7 +206,8 @@ std::string problem_of(double const* v) {
 
 int check(double const* v, char* message, int size) { return put_message(problem_of(v), message, size); }
 
-constexpr piola_material law = with_history("drucker_prager", PIOLA_YIELDS, history, &check, &update);
+constexpr piola_material law =
+    describe("drucker_prager", PIOLA_COROTATED_CAUCHY, PIOLA_YIELDS, history, &check, &update);
 
 }  // namespace
 }  // namespace drucker_prager_law

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/materials/block/own_laws.hpp"
 #include "piola/materials/block/rate_form.hpp"
+#include "piola/materials/elastic_constants.hpp"
 #include "piola/math/root.hpp"
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,7 @@ namespace holmquist_johnson_cook_law {
 namespace {
 
 constexpr std::array parameters{
-    Parameter{"density", "kg/m^3", "mass density in the reference configuration", positive},
+    ElasticConstants::parameters[0],
     Parameter{"shear_modulus", "Pa", "G", positive},
     Parameter{"compressive_strength", "Pa", "fc, quasi-static uniaxial, scale of stresses", positive},
     Parameter{"tensile_strength", "Pa", "T, largest hydrostatic tension of intact material", positive},
@@ -184,7 +185,8 @@ std::string problem_of(double const* v) {
 
 int check(double const* v, char* message, int size) { return put_message(problem_of(v), message, size); }
 
-constexpr piola_material law = with_history("holmquist_johnson_cook", PIOLA_YIELDS, history, &check, &update);
+constexpr piola_material law =
+    describe("holmquist_johnson_cook", PIOLA_COROTATED_CAUCHY, PIOLA_YIELDS, history, &check, &update);
 
 }  // namespace
 }  // namespace holmquist_johnson_cook_law

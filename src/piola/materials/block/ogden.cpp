@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/materials/block/own_laws.hpp"
 #include "piola/materials/block/points.hpp"
+#include "piola/materials/elastic_constants.hpp"
 #include "piola/math/symmetric_eigen.hpp"
 #include <algorithm>
 #include <array>
@@ -17,7 +18,7 @@ namespace {
 constexpr int most_terms = 3;
 
 constexpr std::array parameters{
-    Parameter{"density", "kg/m^3", "mass density in the reference configuration", positive},
+    ElasticConstants::parameters[0],
     Parameter{"bulk_modulus", "Pa", "bulk modulus", positive},
     Parameter{"mu_1", "Pa", "factor mu of the first term mu/alpha (l1^alpha + l2^alpha + l3^alpha - 3)"},
     Parameter{"alpha_1", "1", "exponent alpha of the first term"},
@@ -39,23 +40,20 @@ struct Terms {
   double mu[most_terms]{}, alpha[most_terms]{};
 };
 
-int check(double const* values, char* message, int size) {
-  auto const refuse = [&](std::string const& text) {
-    fmt::format_to_n(message, size - 1, "{}", text).out[0] = 0;
-    return 1;
-  };
+std::string problem_of(double const* values) {
   double twice_shear = 0;
   for (int i = 0; i < most_terms; ++i) {
     double const mu = values[1 + 2 * i], alpha = values[2 + 2 * i];
     if ((mu == 0) != (alpha == 0))
-      return refuse(
-          fmt::format("mu_{0} = {1:g} Pa and alpha_{0} = {2:g}: a term needs both, other than 0", i + 1, mu, alpha));
+      return fmt::format("mu_{0} = {1:g} Pa and alpha_{0} = {2:g}: a term needs both, other than 0", i + 1, mu, alpha);
     twice_shear += mu * alpha;
   }
-  if (twice_shear > 0) return 0;
-  return refuse(fmt::format(
-      "the sum of mu_i alpha_i, twice the shear modulus at rest, is {:.4g} Pa, but must be above 0", twice_shear));
+  if (twice_shear > 0) return {};
+  return fmt::format("the sum of mu_i alpha_i, twice the shear modulus at rest, is {:.4g} Pa, but must be above 0",
+                     twice_shear);
 }
+
+int check(double const* v, char* message, int size) { return put_message(problem_of(v), message, size); }
 
 /// Principal Kirchhoff stresses from the powers of the stretches: sum_i mu_i (l_k^alpha_i - mean), of trace 0; returns
 /// the isochoric energy.
@@ -77,9 +75,9 @@ int update(piola_points const* points) {
   Terms const terms(at.parameters);
   double const kappa = at.parameters[0];
   for (int p = 0; p < at.count; ++p) {
-    Mat<3> const F = matrix_at(at.F_new, at, p), C = transpose(F) * F;
+    Mat<3> const F = matrix_at(at.F_new, at, p);
     double const J = determinant(F);
-    auto const e = symmetric_eigen(SymMat<3>{{C(0, 0), C(1, 1), C(2, 2), C(0, 1), C(1, 2), C(0, 2)}});
+    auto const e = symmetric_eigen(right_cauchy_green(F));
     if (!(J > 0 && *std::min_element(e.value, e.value + 3) > 0)) return 1;
     double logarithm[3], tau[3]{};
     for (int k = 0; k < 3; ++k) logarithm[k] = 0.5 * std::log(e.value[k]);
@@ -93,18 +91,7 @@ int update(piola_points const* points) {
   return 0;
 }
 
-constexpr piola_material law{.interface_version = PIOLA_MATERIAL_INTERFACE,
-                             .name = "ogden",
-                             .about = "",
-                             .stress = PIOLA_FIRST_PIOLA,
-                             .properties = PIOLA_ELASTIC,
-                             .parameter_count = 0,
-                             .parameters = nullptr,
-                             .history_count = 0,
-                             .history = nullptr,
-                             .check = &check,
-                             .start = nullptr,
-                             .update = &update};
+constexpr piola_material law = describe("ogden", PIOLA_FIRST_PIOLA, PIOLA_ELASTIC, {}, &check, &update);
 
 }  // namespace
 }  // namespace ogden_law

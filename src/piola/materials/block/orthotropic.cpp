@@ -2,6 +2,7 @@
 #include "piola/base/parameter.hpp"
 #include "piola/materials/block/own_laws.hpp"
 #include "piola/materials/block/points.hpp"
+#include "piola/materials/elastic_constants.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,7 +36,7 @@ consteval Parameter strength(std::string_view name, std::string_view meaning) {
 }
 
 constexpr std::array parameters{
-    Parameter{"density", "kg/m^3", "mass density in the reference configuration", positive},
+    ElasticConstants::parameters[0],
     modulus("youngs_modulus_1", "E1, along the fibres"),
     modulus("youngs_modulus_2", "E2"),
     modulus("youngs_modulus_3", "E3"),
@@ -159,8 +160,7 @@ int update(piola_points const* points) {
   piola_points const& at = *points;
   Orthotropic const law(at.parameters);
   for (int p = 0; p < at.count; ++p) {
-    SymMat<3> const stretch = symmetric_at(at.U_new, at, p);
-    Mat<3> const U = identity<3>() * stretch, squared = U * U;
+    Mat<3> const U = full(symmetric_at(at.U_new, at, p)), squared = U * U;
     double const J = determinant(U);
     if (!(J > 0)) return 1;
     Mat<3> cauchy = (1 / J) * (U * law.stress(0.5 * (squared - identity<3>())) * U);
@@ -201,7 +201,7 @@ std::string problem_of(double const* v) {
 
 int check(double const* v, char* message, int size) { return put_message(problem_of(v), message, size); }
 
-constexpr piola_material law = with_history("orthotropic", 0, history, &check, &update);
+constexpr piola_material law = describe("orthotropic", PIOLA_COROTATED_CAUCHY, 0, history, &check, &update);
 
 }  // namespace
 }  // namespace orthotropic_law

@@ -113,8 +113,6 @@ class PAlpha {
   MieGrueneisen solid_;
 };
 
-Mat<3> full(SymMat<3> const& s) { return identity<3>() * s; }
-
 /// Energy that the step brings, but for the work of its last pressure p: work - p volume [J/m^3].
 struct StepWork {
   double work, volume;
@@ -174,7 +172,8 @@ std::string problem_of(double const* v) {
 
 int check(double const* v, char* message, int size) { return put_message(problem_of(v), message, size); }
 
-constexpr piola_material law = with_history("p_alpha", PIOLA_YIELDS, history, &check, &update, &start);
+constexpr piola_material law =
+    describe("p_alpha", PIOLA_COROTATED_CAUCHY, PIOLA_YIELDS, history, &check, &update, &start);
 
 }  // namespace
 }  // namespace p_alpha_law

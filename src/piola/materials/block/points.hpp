@@ -2,7 +2,7 @@
 #pragma once
 #include "piola/materials/piola_material.h"
 #include "piola/math/tensor.hpp"
-#include <array>
+#include <span>
 #include <string>
 
 /// Tensors of single points in the arrays of piola_points.
@@ -24,23 +24,23 @@ void put(Tensor const& tensor, double* array, piola_points const& at, int p) {
   for (int c = 0; c < components; ++c) array[c * at.stride + p] = tensor.c[c];
 }
 
-/// Description of a law with a history, whose parameters, like its texts, are those of its LawInfo.
-template <std::size_t N>
-constexpr piola_material with_history(char const* name, int properties, std::array<piola_history, N> const& history,
-                                      decltype(piola_material::check) check, decltype(piola_material::update) update,
-                                      decltype(piola_material::start) start = nullptr) {
-  return {PIOLA_MATERIAL_INTERFACE,
-          name,
-          "",
-          PIOLA_COROTATED_CAUCHY,
-          properties,
-          0,
-          nullptr,
-          static_cast<int>(N),
-          history.data(),
-          check,
-          start,
-          update};
+/// The tensor with all its components.
+inline Mat<3> full(SymMat<3> const& s) { return identity<3>() * s; }
+
+/// C = F^T F.
+inline SymMat<3> right_cauchy_green(Mat<3> const& F) {
+  SymMat<3> C;
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j) C(i, j) = F(0, i) * F(0, j) + F(1, i) * F(1, j) + F(2, i) * F(2, j);
+  return C;
+}
+
+/// Description of a law whose parameters, like its texts, are those of its LawInfo.
+constexpr piola_material describe(char const* name, int stress, int properties, std::span<piola_history const> history,
+                                  decltype(piola_material::check) check, decltype(piola_material::update) update,
+                                  decltype(piola_material::start) start = nullptr) {
+  return {PIOLA_MATERIAL_INTERFACE,         name,           "",    stress, properties, 0, nullptr,
+          static_cast<int>(history.size()), history.data(), check, start,  update};
 }
 
 /// Result of piola_material::check: writes the problem, which is empty if parameters go together.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/materials/block/points.hpp"
+#include "piola/materials/hypoelastic_solid.hpp"
 #include "piola/materials/piola_strain.h"
 #include <cmath>
 
@@ -14,12 +15,6 @@ struct SplitStress {
   double mises = 0;     ///< von Mises stress sqrt(3/2 s:s) [Pa]
 };
 
-inline double von_mises_of(SymMat<3> const& s) {
-  double square = 0;
-  for (int c = 0; c < 6; ++c) square += (c < 3 ? 1.5 : 3) * s.c[c] * s.c[c];
-  return std::sqrt(square);
-}
-
 /// Stress at the end of the step if it is elastic with the moduli mu and kappa [Pa].
 inline SplitStress elastic_trial(piola_points const& at, int p, double mu, double kappa) {
   double d[6];
@@ -29,7 +24,7 @@ inline SplitStress elastic_trial(piola_points const& at, int p, double mu, doubl
   double const mean = (r.deviator.c[0] + r.deviator.c[1] + r.deviator.c[2]) / 3;
   for (int c = 0; c < 6; ++c) r.deviator.c[c] += 2 * mu * (c < 3 ? d[c] - volume / 3 : d[c]) - (c < 3 ? mean : 0);
   r.pressure = -mean - kappa * volume;
-  r.mises = von_mises_of(r.deviator);
+  r.mises = von_mises(r.deviator);
   return r;
 }
 

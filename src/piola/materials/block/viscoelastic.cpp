@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/materials/block/own_laws.hpp"
 #include "piola/materials/block/points.hpp"
+#include "piola/materials/elastic_constants.hpp"
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -18,7 +19,7 @@ constexpr int most_terms = 4;
 
 constexpr Interval part_of_one{0, 1, false, true};
 constexpr std::array parameters{
-    Parameter{"density", "kg/m^3", "mass density in the reference configuration", positive},
+    ElasticConstants::parameters[0],
     Parameter{"bulk_modulus", "Pa", "bulk modulus; the pressure is elastic", positive},
     Parameter{"shear_modulus", "Pa", "instantaneous shear modulus", positive},
     Parameter{"g_1", "1", "fraction of the shear modulus that relaxes with tau_1", part_of_one},
@@ -37,21 +38,19 @@ constexpr piola_history history[6 * most_terms]{
     {"H3_XX", "1", 0}, {"H3_YY", "1", 0}, {"H3_ZZ", "1", 0}, {"H3_XY", "1", 0}, {"H3_YZ", "1", 0}, {"H3_XZ", "1", 0},
     {"H4_XX", "1", 0}, {"H4_YY", "1", 0}, {"H4_ZZ", "1", 0}, {"H4_XY", "1", 0}, {"H4_YZ", "1", 0}, {"H4_XZ", "1", 0}};
 
-int check(double const* values, char* message, int size) {
-  auto const refuse = [&](std::string const& text) {
-    fmt::format_to_n(message, size - 1, "{}", text).out[0] = 0;
-    return 1;
-  };
+std::string problem_of(double const* values) {
   double sum = 0;
   for (int i = 0; i < most_terms; ++i) {
     double const g = values[2 + 2 * i], tau = values[3 + 2 * i];
     sum += g;
     if (g > 0 && !(tau > 0))
-      return refuse(fmt::format("g_{0} = {1:g} needs a relaxation time tau_{0} above 0 s, not {2:g} s", i + 1, g, tau));
+      return fmt::format("g_{0} = {1:g} needs a relaxation time tau_{0} above 0 s, not {2:g} s", i + 1, g, tau);
   }
-  if (sum < 1) return 0;
-  return refuse(fmt::format("the sum of g_i is {:g}, but must be below 1: 1 - sum is what never relaxes", sum));
+  if (sum < 1) return {};
+  return fmt::format("the sum of g_i is {:g}, but must be below 1: 1 - sum is what never relaxes", sum);
 }
+
+int check(double const* v, char* message, int size) { return put_message(problem_of(v), message, size); }
 
 SymMat<3> operator+(SymMat<3> A, SymMat<3> const& B) {
   for (int c = 0; c < 6; ++c) A.c[c] += B.c[c];
@@ -62,13 +61,6 @@ SymMat<3> operator*(double s, SymMat<3> A) {
   return A;
 }
 
-/// C = F^T F.
-SymMat<3> right_cauchy_green(Mat<3> const& F) {
-  SymMat<3> C;
-  for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j) C(i, j) = F(0, i) * F(0, j) + F(1, i) * F(1, j) + F(2, i) * F(2, j);
-  return C;
-}
 /// S~ / mu = I - tr C/3 C^-1.
 SymMat<3> shape_stress(Mat<3> const& F) {
   SymMat<3> S = right_cauchy_green(cofactor(F));  // J^2 C^-1
@@ -124,18 +116,7 @@ int update(piola_points const* points) {
   return 0;
 }
 
-constexpr piola_material law{.interface_version = PIOLA_MATERIAL_INTERFACE,
-                             .name = "viscoelastic",
-                             .about = "",
-                             .stress = PIOLA_FIRST_PIOLA,
-                             .properties = 0,
-                             .parameter_count = 0,
-                             .parameters = nullptr,
-                             .history_count = 6 * most_terms,
-                             .history = history,
-                             .check = &check,
-                             .start = nullptr,
-                             .update = &update};
+constexpr piola_material law = describe("viscoelastic", PIOLA_FIRST_PIOLA, 0, history, &check, &update);
 
 }  // namespace
 }  // namespace viscoelastic_law
