@@ -249,9 +249,13 @@ class BlockLawCells {
     };
     for (int l = 0; l < lane_count; ++l) {
       if (owns(i + l)) continue;
-      for (double* const F : {block.F_old, block.F_new, block.stress}) fill(F, 9, l);
-      if (law_->corotated())
-        for (double* const U : {block.U_old, block.U_new}) fill(U, 6, l);
+      fill(block.F_old, 9, l);
+      fill(block.F_new, 9, l);
+      fill(block.stress, 9, l);
+      if (law_->corotated()) {
+        fill(block.U_old, 6, l);
+        fill(block.U_new, 6, l);
+      }
       fill(block.energy, 1, l);
       fill(block.history, law_->history_count(), l);
     }
