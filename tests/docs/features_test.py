@@ -127,6 +127,14 @@ def metal(**given):
     return material(law="perfectly_plastic", **YIELD, **given, without={"law": "perfectly_plastic", **YIELD})
 
 
+def warm_end(formulation):
+    """A metal that is warm at one end, and softer there."""
+    made, without = material(law="johnson_cook", **HARDENS, specific_heat=400,
+                             without={"law": "johnson_cook", **HARDENS, "specific_heat": 400})(formulation)
+    made["body"][0]["initial_temperature"] = "300 + 1000*X"
+    return made, without
+
+
 def setting(**given):
     def make(formulation):
         made = plain(formulation)
@@ -363,6 +371,8 @@ FEATURES = {
     "explosives (`jwl`)": material(name="composition_b"),
     "heating by plastic work": material(law="johnson_cook", **HARDENS, specific_heat=1,
                                         without={"law": "johnson_cook", **HARDENS}),
+    "conduction of heat": material(law="johnson_cook", **HARDENS, specific_heat=1, conductivity=1e6,
+                                   without={"law": "johnson_cook", **HARDENS, "specific_heat": 1}),
     "damage": metal(damage="johnson_cook", d1=0.001, melting_temperature=1800),
     "cracks with a toughness": material(law="elastic", **STEEL, tensile_strength=1e3, fracture_energy=1e-6,
                                         without={"law": "elastic", **STEEL}),
@@ -384,6 +394,7 @@ FEATURES = {
     "initial velocity": with_body(initial_velocity=["3*Y", "0"]),
     "initial displacement": with_body(initial_displacement=["0.01*X", "0"]),
     "initial deformation gradient": with_body(initial_deformation_gradient=[["1.01", "0"], ["0", "1"]]),
+    "initial temperature that differs within a body": warm_end,
     "supports that hold": support(),
     "supports that drive": compared(support(velocity=["5", "0"]), velocity=None),
     "supports that let go": compared(support(until=1e-3), until=None),

@@ -72,7 +72,8 @@ struct Assembly {
   std::vector<std::array<double, 3>> initial_velocity;      ///< m/s, one per particle, or empty: at rest
   std::vector<std::array<double, 3>> initial_displacement;  ///< m, one per particle, or empty: none
   std::vector<std::array<double, 9>>
-      initial_deformation_gradient;  ///< row by row, one per particle, or empty: from the displacement
+      initial_deformation_gradient;         ///< row by row, one per particle, or empty: from the displacement
+  std::vector<double> initial_temperature;  ///< K, one per particle, 0: of the material; or empty
   std::vector<Support> supports;
   std::vector<Load> loads;
   std::vector<MirrorPlane> mirrors;

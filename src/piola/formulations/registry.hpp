@@ -52,6 +52,7 @@ struct FormulationInfo {
   bool minimises = false;         ///< whether it has Formulation::descend()
   bool axisymmetric = false;      ///< whether bodies may be axisymmetric
   bool block_laws = false;        ///< whether it can use laws of libraries (materials/block_law.hpp)
+  bool conducts = false;          ///< whether heat is conducted, and temperatures may differ at the start
   bool ranks = true;              ///< whether its bodies may be distributed over ranks
   std::span<FormulaInfo const> formulas = {};  ///< optional formulas
   std::span<RemovedSetting const> removed = {};

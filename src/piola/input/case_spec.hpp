@@ -70,6 +70,7 @@ struct BodySpec {
   std::array<Expression, 3> initial_velocity;                             ///< m/s
   std::optional<std::array<Expression, 3>> initial_displacement;          ///< m
   std::optional<std::array<Expression, 9>> initial_deformation_gradient;  ///< row by row
+  std::optional<Expression> initial_temperature;                          ///< K
   Places places;
 };
 

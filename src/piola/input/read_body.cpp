@@ -176,13 +176,17 @@ BodySpec read_body(Section const& section, Names const& common, CaseLibrary cons
   if (auto velocity = read_vector(section, "initial_velocity", names)) body.initial_velocity = std::move(*velocity);
   body.initial_displacement = read_vector(section, "initial_displacement", names);
   body.initial_deformation_gradient = read_gradient(section, names);
+  if (auto const value = section.find("initial_temperature"))
+    body.initial_temperature = read_formula(*value, "K", names.names, section.problems());
   refuse_tables_over_time(section, "initial_velocity", body.initial_velocity);
   if (auto const& u = body.initial_displacement) refuse_tables_over_time(section, "initial_displacement", *u);
   if (auto const& F = body.initial_deformation_gradient)
     refuse_tables_over_time(section, "initial_deformation_gradient", *F);
+  if (auto const& T = body.initial_temperature) refuse_tables_over_time(section, "initial_temperature", {&*T, 1});
   section.refuse_unknown();
-  body.places.merge(places_of(section, {"name", "shape", "material", "formulation", "initial_velocity",
-                                        "initial_displacement", "initial_deformation_gradient"}));
+  body.places.merge(
+      places_of(section, {"name", "shape", "material", "formulation", "initial_velocity", "initial_displacement",
+                          "initial_deformation_gradient", "initial_temperature"}));
   for (std::string const table : {"material", "formulation"}) add_places_within(section, table, body.places);
   return body;
 }

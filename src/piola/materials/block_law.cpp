@@ -81,10 +81,10 @@ int BlockLaw::update(piola_points& points) const {
   return law_->update(&points);
 }
 
-std::array<double, 6> BlockLaw::stress_at(std::array<double, 6> const& e) const {
+std::array<double, 6> BlockLaw::stress_at(std::array<double, 6> const& e, double heat) const {
   constexpr double at_rest[9]{1, 0, 0, 0, 1, 0, 0, 0, 1};
   constexpr std::array<std::size_t, 9> symmetric{0, 3, 5, 3, 1, 4, 5, 4, 2};
-  double U[6], F[9], stress[9]{}, energy = 0, speed = 0;
+  double U[6], F[9], stress[9]{}, energy = rho0 * heat, speed = 0;
   std::array<double, most_history> history{};
   for (std::size_t c = 0; c < 6; ++c) U[c] = e[c] + (c < 3 ? 1 : 0);
   for (std::size_t c = 0; c < 9; ++c) F[c] = U[symmetric[c]];

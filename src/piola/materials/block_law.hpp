@@ -37,8 +37,9 @@ class BlockLaw {
   void start(double* history) const;
   /// Advances the points; sets density and parameters. Returns what the law returns: 0, or why not.
   int update(piola_points& points) const;
-  /// Stress at a stretch U = I + e from rest, dt = 0: xx yy zz xy yz xz of the Cauchy stress [Pa].
-  std::array<double, 6> stress_at(std::array<double, 6> const& e) const;
+  /// Stress at a stretch U = I + e from rest, dt = 0, with an internal energy `heat` [J/kg]: xx yy zz xy yz xz of the
+  /// Cauchy stress [Pa].
+  std::array<double, 6> stress_at(std::array<double, 6> const& e, double heat = 0) const;
 
  private:
   piola_material const* law_;

@@ -101,12 +101,30 @@ inline bool is_explosive(MaterialParameters const& material) {
   return front > 0;
 }
 
-/// Whether heat changes the pressure of the material: its equation of state serves shocks.
+/// Whether heat raises the pressure of the material at rest, as where its law serves shocks.
 inline bool has_thermal_pressure(MaterialParameters const& material) {
   constexpr double heat = 1e4;  // [J/kg]
   bool thermal = false;
   with_solid(material, [&](auto const& law) { thermal = law.pressure(law.rho0, heat) > law.pressure(law.rho0, 0); });
+  with_block_law(material, [&](BlockLaw const& law) {
+    auto const cold = law.stress_at({}), hot = law.stress_at({}, heat);
+    thermal = !law.elastic() && hot[0] + hot[1] + hot[2] < cold[0] + cold[1] + cold[2];
+  });
   return thermal;
+}
+
+/// Whether points of the material keep their internal energy from step to step; else it is a potential.
+inline bool stores_internal_energy(MaterialParameters const& material) {
+  bool stores = is_hypoelastic(material);
+  with_block_law(material, [&](BlockLaw const& law) { stores = !law.elastic(); });
+  return stores;
+}
+
+/// Whether heat flows in the material.
+inline bool conducts_heat(MaterialParameters const& material) {
+  double conductivity = 0;
+  with_solid(material, [&](auto const& law) { conductivity = law.heat().conductivity; });
+  return conductivity > 0;
 }
 
 /// Whether the material fails: by damage, spall or cracks.

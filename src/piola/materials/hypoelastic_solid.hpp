@@ -55,9 +55,9 @@ PIOLA_FN V von_mises(SymMat<3, V> const& S) {
 
 /// An isotropic solid in rate form: Cauchy stress S - p I, the deviator S by its Jaumann rate and radial return to the
 /// yield surface of von Mises (Wilkins 1964; Simo, Hughes, Computational Inelasticity, 1998, box 3.1), the pressure p
-/// by an equation of state of density and energy. Heating is adiabatic. Pure functions: the caller owns the history. V
-/// is `double` or a pack of lanes; strengths that solve for the flow stress are evaluated lane by lane, only for lanes
-/// that may yield.
+/// by an equation of state of density and energy. Heating within a step is adiabatic. Pure functions: the caller owns
+/// the history. V is `double` or a pack of lanes; strengths that solve for the flow stress are evaluated lane by lane,
+/// only for lanes that may yield.
 template <class Strength, class Eos>
 class Solid {
  public:
@@ -114,6 +114,7 @@ class Solid {
     if constexpr (requires { eos_.front_speed; }) return eos_.front_speed;
     return 0;
   }
+  PIOLA_FN Heat const& heat() const { return heat_; }
   /// [K]
   PIOLA_FN double initial_temperature() const { return heat_.initial; }
   /// Yield stress of a state at a plastic strain rate [1/s] and a pressure [Pa]; infinity for an elastic solid [Pa].

@@ -9,12 +9,6 @@
 namespace piola {
 namespace {
 
-bool lacks_potential(MaterialParameters const& material) {
-  bool history = is_hypoelastic(material);
-  with_block_law(material, [&](BlockLaw const& law) { history = !law.elastic(); });
-  return history;
-}
-
 /// Whether the formulation can minimise, and the materials have one potential energy.
 void check_body(BodySpec const& body, Problems& problems) {
   auto const info = find_formulation(body.formulation.name);
@@ -22,8 +16,8 @@ void check_body(BodySpec const& body, Problems& problems) {
     problems.add(place_of(body.places, "formulation"),
                  "run.relax_method is \"conjugate_gradients\", which the formulation " + in_quotes(info->name) +
                      " does not have (allowed: nodal) - take nodal, or relax_method = \"kinetic_damping\"");
-  bool without = lacks_potential(body.material);
-  for (PartSpec const& part : body.parts) without = without || lacks_potential(part.material);
+  bool without = stores_internal_energy(body.material);
+  for (PartSpec const& part : body.parts) without = without || stores_internal_energy(part.material);
   if (without)
     problems.add(place_of(body.places, "material"),
                  "run.relax_method is \"conjugate_gradients\", which needs a potential energy; solids in rate form "

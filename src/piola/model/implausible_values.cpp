@@ -140,7 +140,8 @@ void check_motion(CaseSpec const& spec, std::vector<BodyProperties> const& facts
     if (auto const fast = implausible(plausible_range("speed"), body.largest_speed, body.p_wave, "m/s"); !fast.empty())
       slips.add(place_of(from.places, "initial_velocity"), body_words(body) + fast);
     moves = moves || body.largest_speed > 0 || from.initial_displacement || from.initial_deformation_gradient ||
-            from.formulation.formulas.contains("initial_pressure") || is_explosive(from.material);
+            from.initial_temperature || from.formulation.formulas.contains("initial_pressure") ||
+            is_explosive(from.material);
   }
   if (!moves)
     slips.add({},

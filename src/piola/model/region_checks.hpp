@@ -49,6 +49,8 @@ void check_minimisation(CaseSpec const& spec, Problems& problems);
 
 /// Whether the bodies of the case are given as half sections of bodies of revolution.
 bool is_in_sections(CaseSpec const& spec);
+/// Refuses conduction of heat, and temperatures that differ at the start, where they have no effect.
+void check_heat(BodySpec const& body, Problems& problems);
 /// Refuses what axisymmetric cases cannot have, and shapes beyond the axis.
 void check_axisymmetry(CaseSpec const& spec, ParticleSet const& particles, Problems& problems);
 

@@ -50,6 +50,11 @@ void set_initial_state(BodySpec const& from, Body const& body, Assembly& a) {
     if (a.initial_deformation_gradient.empty()) a.initial_deformation_gradient.resize(X.size(), identity);
     put(*from.initial_deformation_gradient, a.initial_deformation_gradient);
   }
+  if (from.initial_temperature) {
+    a.initial_temperature.resize(X.size());
+    for_each_with_formulas(*from.initial_temperature, body,
+                           [&](Expression const& T, std::size_t i) { a.initial_temperature[i] = T(X[i]); });
+  }
 }
 
 /// The formulation takes deformation gradients either from the displacement or as given, for all bodies.

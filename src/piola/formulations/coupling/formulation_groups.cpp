@@ -109,6 +109,7 @@ void fill_part(Assembly const& whole, FormulationGroup& part) {
   a.particles = particles_of(whole.particles, part);
   a.initial_velocity = gathered(whole.initial_velocity, part.blocks);
   a.initial_displacement = gathered(whole.initial_displacement, part.blocks);
+  a.initial_temperature = gathered(whole.initial_temperature, part.blocks);
   a.initial_deformation_gradient = gathered(whole.initial_deformation_gradient, part.blocks);
   for (auto const& block : part.blocks) {
     a.materials.push_back(whole.materials[block.body]);

@@ -44,6 +44,7 @@ class BlockLawCells {
   BlockLawCells(BlockLaw const& law, MaterialRange const& range, BodyState const& body, double dt, Wanted wanted)
       : law_(&law),
         kappa_local_(range.constants.kappa_local),
+        shock_(range.constants.shock),
         dt_(dt),
         time_(body.time),
         wanted_(wanted),
@@ -119,9 +120,11 @@ class BlockLawCells {
       energy.energy = energy.energy + (1.0 / points) * (Block::get(block.energy, 0, q) +
                                                         kappa_local_ * logarithm(now.mean_J / now.J[q]));
     }
-    put_together(now, law_stress, spread, energy.P);
+    put_together(now, law_stress, spread, Lanes(0.0), energy.P);
   }
 
+  /// The energy grows by the work of the mean of the stresses before and after. The law is given the energy before and
+  /// the heat that the viscous pressure of shocks brings in the step.
   template <class Energy>
   PIOLA_FN void of_history(Index i, Lanes const& owned, Cell& now, Energy& energy) const {
     Block block;
@@ -130,7 +133,9 @@ class BlockLawCells {
     Lanes spread[points];
     left_at(i, old, block, spread);
     for (int q = 0; q < points; ++q) law_stress[q] = first_piola(old, q, block);
-    put_together(old, law_stress, spread, P_old);
+    Lanes const shock_before =
+        wanted_ == Wanted::as_left ? Lanes(0.0) : in_.template scalar<Lanes>(i, At::shock_pressure);
+    put_together(old, law_stress, spread, shock_before, P_old);
     Lanes const specific = in_.template scalar<Lanes>(i, At::energy);
     energy.energy = law_->rho0 * specific;
     if (wanted_ == Wanted::as_left) {
@@ -141,7 +146,8 @@ class BlockLawCells {
     now.find_even(law_->corotated());
     if (wanted_ == Wanted::trial && law_->yields()) return try_elastic(i, old, now, law_stress, spread, energy.P);
     put_gradients(block, old, now);
-    for (int q = 0; q < points; ++q) Block::put(block.energy, 0, q, energy.energy);
+    Lanes const shock = shock_pressure(old, now), heated = energy.energy + heat_of(old, now, shock_before, shock);
+    for (int q = 0; q < points; ++q) Block::put(block.energy, 0, q, heated);
     call(i, block);
     for (int q = 0; q < points; ++q) {
       Mat<3, Lanes> const before = law_stress[q];
@@ -149,13 +155,30 @@ class BlockLawCells {
       Lanes const elastic = now.spread(q, kappa_local_);
       spread[q] = law_->yields() ? yielding_spread(old, now, q, before, law_stress[q], spread[q]) : elastic;
     }
-    put_together(now, law_stress, spread, energy.P);
+    put_together(now, law_stress, spread, shock, energy.P);
     if (wanted_ == Wanted::trial) return;
     Lanes work = Lanes(0.0);
     for (int q = 0; q < points; ++q)
       work = work + (0.5 / points) * contract(P_old[q] + energy.P[q], now.F[q] - old.F[q]);
     energy.energy = energy.energy + work;
-    keep(i, owned, now, block, spread, specific + (1 / law_->rho0) * work);
+    keep(i, owned, now, block, spread, specific + (1 / law_->rho0) * work, shock);
+  }
+
+  /// Viscous pressure where the mean volume ratio J falls, in proportion to (dJ/dt)^2 / J [Pa]. Zero in trial steps.
+  PIOLA_FN Lanes shock_pressure(Cell const& old, Cell const& now) const {
+    if (!(dt_ > 0) || wanted_ == Wanted::trial) return Lanes(0.0);
+    Lanes const closing = maximum((1 / dt_) * (old.mean_J - now.mean_J), Lanes(0.0));
+    return shock_ * closing * closing / now.mean_J;
+  }
+  /// Work on a cell of viscous pressures, `before` and `after` the step, per reference volume [J/m^3].
+  PIOLA_FN static Lanes heat_of(Cell const& old, Cell const& now, Lanes const& before, Lanes const& after) {
+    Lanes heat = Lanes(0.0);
+    for (int q = 0; q < points; ++q) {
+      Mat<3, Lanes> const dF = now.F[q] - old.F[q];
+      heat = heat -
+             (0.5 / points) * (before * contract(cofactor(old.F[q]), dF) + after * contract(cofactor(now.F[q]), dF));
+    }
+    return heat;
   }
 
   /// Stresses at a trial displacement of a law that yields, which is not called: by the moduli.
@@ -165,13 +188,13 @@ class BlockLawCells {
       law_stress[q] = elastic_trial(i, old, now, q, law_stress[q]);
       spread[q] = spread[q] + now.spread(q, kappa_local_) - old.spread(q, kappa_local_);
     }
-    put_together(now, law_stress, spread, P);
+    put_together(now, law_stress, spread, Lanes(0.0), P);
   }
 
   /// Stresses of the points from those of the law at the gradients with the mean volume ratio: the derivative of
-  /// mean_q W((Jm/J_q)^(1/3) F_q) by F_q, and the spread.
+  /// mean_q W((Jm/J_q)^(1/3) F_q) by F_q, the spread, and a `pressure` of the cell [Pa].
   PIOLA_FN void put_together(Cell const& cell, Mat<3, Lanes> const (&law_stress)[points], Lanes const (&spread)[points],
-                             Mat<3, Lanes> (&P)[points]) const {
+                             Lanes const& pressure, Mat<3, Lanes> (&P)[points]) const {
     Lanes work[points], mean_work = Lanes(0.0);
     for (int q = 0; q < points; ++q) {
       work[q] = (1.0 / 3.0) * contract(law_stress[q], cell.even[q]);
@@ -179,7 +202,7 @@ class BlockLawCells {
     }
     for (int q = 0; q < points; ++q)
       P[q] = power_minus_third(cell.J[q] / cell.mean_J) * law_stress[q] +
-             Lanes(mean_work / cell.mean_J - work[q] / cell.J[q] + spread[q]) * cofactor(cell.F[q]);
+             Lanes(mean_work / cell.mean_J - work[q] / cell.J[q] + spread[q] - pressure) * cofactor(cell.F[q]);
   }
 
   PIOLA_FN void put_gradients(Block& block, Cell const& old, Cell const& now) const {
@@ -311,7 +334,7 @@ class BlockLawCells {
   }
 
   PIOLA_FN void keep(Index i, Lanes const& owned, Cell const& now, Block const& block, Lanes const (&spread)[points],
-                     Lanes const& specific) const {
+                     Lanes const& specific, Lanes const& shock) const {
     auto const put = [&](Lanes const& value, int c) {
       out_.scalar(i, select(owned > 0.5, value, in_.template scalar<Lanes>(i, c)), c);
     };
@@ -328,11 +351,12 @@ class BlockLawCells {
       modulus = maximum(modulus, law_->rho0 / now.mean_J * c * c);
     }
     put(specific, At::energy);
+    put(shock, At::shock_pressure);
     put(modulus, At::modulus);
   }
 
   BlockLaw const* law_;
-  double kappa_local_, dt_, time_;
+  double kappa_local_, shock_, dt_, time_;
   Wanted wanted_;
   Index first_, last_;
   FailureSlot* failure_;

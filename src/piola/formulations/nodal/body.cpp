@@ -81,7 +81,8 @@ NodalBody::NodalBody(Assembly const& assembly, ParticleSet const& set, std::size
               .converts = options.converts,
               .offset = !assembly.initial_deformation_gradient.empty(),
               .implicit_pressure = options.implicit_pressure,
-              .axisymmetric = set.axisymmetric}) {
+              .axisymmetric = set.axisymmetric,
+              .conducts = options.conducts}) {
   state_.slots = even_range_of_rank(order_.slots(), comm::rank(), comm::size());
   state_.all_slots = order_.slots();
   state_.particles = order_.particles;
@@ -105,7 +106,7 @@ void NodalBody::make_reference(Assembly const& assembly, Backend const& backend)
   nodal::make_reference(
       {*set_, body_, order_, assembly.loads, assembly.supports, materials_.densities(), options_.least_mass, backend,
        images_.empty() ? nullptr : &images_, comm::is_parallel() ? std::optional(state_.slots) : std::nullopt,
-       assembly.coupled, options_.failure},
+       assembly.coupled, options_.failure, options_.conducts},
       reference_);
   if (!images_.empty() && !reference_.held.empty())
     throw InputError(fmt::format(

@@ -78,9 +78,9 @@ void BodyMaterials::attach(BodyState& state, Options const& options) const {
         "(allowed: 0 for a body with parts) - leave them out, or make the parts bodies and tie them",
         name_));
   Constants const& of = ranges_.front().constants;
-  bool const solid = is_hypoelastic(ranges_.front().material);
   double const speed = std::sqrt((of.kappa_local + 4 * of.mu / 3) / of.rho0);
-  state.viscosity = {options.fluctuation_viscosity * of.rho0 * mean_spacing_ * speed, solid ? 0 : of.shock};
+  state.viscosity = {options.fluctuation_viscosity * of.rho0 * mean_spacing_ * speed,
+                     stores_internal_energy(ranges_.front().material) ? 0 : of.shock};
 }
 
 std::vector<double> BodyMaterials::densities() const {

@@ -82,14 +82,23 @@ void FieldSetUp::fill_initial() {
     }
 }
 
+double FieldSetUp::temperature_above(Index slot, double of_material) const {
+  auto const& all = assembly_.initial_temperature;
+  double const T = all.empty() ? 0 : all[static_cast<std::size_t>(body_.id(slot))];
+  return T > 0 ? T - of_material : 0;
+}
+
 void FieldSetUp::fill_histories() {
   int const D = s_.dimension;
   for (MaterialRange const& range : body_.materials()) {
     if (range.block != nullptr && !range.block->elastic()) fill_block_history(range);
     with_solid(range.material, [&](auto const& law) {
       for (Index i = std::max(range.first, body_.own().first); i < std::min(range.last, body_.own().last); ++i) {
+        double const warmer = temperature_above(i, law.initial_temperature());
         for (int q = 0; q < Fields::points(D); ++q)
-          value_at(s_.history, i, HistoryLayout::point(q, D) + HistoryLayout::temperature) = law.initial_temperature();
+          value_at(s_.history, i, HistoryLayout::point(q, D) + HistoryLayout::temperature) =
+              law.initial_temperature() + warmer;
+        if (warmer != 0) value_at(s_.history, i, HistoryLayout::energy) = warmer * law.heat().specific_heat;
         put_reference_shape(s_.history, i, D);
         if (!s_.has.failure) continue;
         auto const id = static_cast<std::size_t>(body_.id(i));

@@ -31,6 +31,8 @@ class FieldSetUp {
   void fill_offset(Backend const& backend);
 
  private:
+  /// Temperature of a particle at the start over that of its material [K].
+  double temperature_above(Index slot, double of_material) const;
   /// History of a law on blocks of points at the start.
   void fill_block_history(MaterialRange const& range);
   std::span<MirroredParticle const> mirrored() const {

@@ -44,8 +44,9 @@ struct HistoryLayout {
 /// Layout of the field `history` of laws on blocks of points that have a history, at the end of the last step. `count`:
 /// values of a point that the law keeps.
 struct BlockLawLayout {
-  /// Values of the cell: specific internal energy [J/kg]; modulus of pressure waves [Pa].
-  enum : int { energy, modulus, of_cell };
+  /// Values of the cell: specific internal energy [J/kg]; modulus of pressure waves [Pa]; viscous pressure of shocks
+  /// [Pa].
+  enum : int { energy, modulus, shock_pressure, of_cell };
   /// Values of a point, relative to point(q, D, count).
   enum : int {
     stress,      ///< of the law in its measure [Pa], up to 9 values
@@ -102,6 +103,7 @@ struct FieldNeeds {
   bool offset = false;     ///< F starts from given values
   bool implicit_pressure = false;
   bool axisymmetric = false;
+  bool conducts = false;  ///< heat is conducted
 };
 
 /// The one list of particle fields of the nodal formulation, and what loops get of them. Memory and checkpoints follow
@@ -174,6 +176,8 @@ struct Fields {
   // velocity of the step.
   ListedRef unit{owner,         "UnitPressureResultants", "1", dimension*(dimension + second(dimension)),
                  Role::derived, has.implicit_pressure};
+  // Conduction: temperature [K] and conductivity in the reference configuration [W/(m K)], of cells.
+  ListedRef heat{owner, "CellHeat", "K", 7, Role::derived, has.conducts};
   ListedRef ratio{owner, "CellVolumeRatio", "1", 1, Role::derived, has.implicit_pressure};
   ListedRef mean_v{owner, "MeanVelocity", "m/s", dimension, Role::derived, has.implicit_pressure};
   ListedRef history_kept{owner,         "SolidHistoryAtStepStart",           "1", history_values(),

@@ -6,12 +6,13 @@
 
 namespace piola::nodal {
 
-/// Adds the fields of ghost exchanges of a body: positions, and what neighbours read of the stress.
+/// Adds the fields of ghost exchanges of a body: positions, what neighbours read of the stress, and heat.
 template <int D>
 void add_halo_fields(HaloPlan& halo, BodyState const& state) {
   constexpr int of_list = Records<D>::used, of_lattice = D + Quadratic<D>::second;
   halo.add(state.x, 0, D);
   halo.add(state.stress_for_neighbours, 0, D * (state.lattice.group != nullptr ? of_lattice : of_list));
+  if (state.has.conducts) halo.add(state.heat, 0, 7);
 }
 
 }  // namespace piola::nodal

@@ -30,7 +30,7 @@ constexpr std::array parameters{
     Parameter{"shock_viscosity", "1",
               "viscous pressure in compression, in units of density times the square of spacing times rate of volume; "
               "smears shocks over a few spacings, and its work is heat",
-              Interval{0, 20}, no_default, "2 with an equation of state in which heat changes the pressure, else 0"},
+              Interval{0, 20}, no_default, "2 if heat raises the pressure of the material, else 0"},
     Parameter{"chatter_damping", "1",
               "largest fraction of a step's friction heat that chatter damping may dissipate; 0: no damping",
               Interval{0, 1}, 0.05},
@@ -87,6 +87,7 @@ FormulationInfo info() {
   info.parts = true;
   info.surface_supports = true;
   info.minimises = true;
+  info.conducts = true;
   info.axisymmetric = true;
   info.block_laws = true;
   info.outline = true;  // cells end at the surface, and mirror planes are there
@@ -194,6 +195,12 @@ void check_implicit(FormulationSpec const& spec, std::vector<MaterialParameters>
                "mooney_rivlin; linear_elastic for all materials) - take pressure = \"explicit\"");
 }
 
+/// A number of the settings; empty: not given.
+std::optional<double> given_number(FormulationSpec const& spec, std::string const& name) {
+  double const value = number_of(spec, name, std::numeric_limits<double>::quiet_NaN());
+  return std::isnan(value) ? std::nullopt : std::optional(value);
+}
+
 }  // namespace
 
 Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters> const& materials, int dimension,
@@ -201,9 +208,10 @@ Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters
   PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
   Problems problems;
   bool const stress_free = is_stress_free(word_of(spec, choices, "assumption"), dimension, false, problems);
-  bool solids = false, hyperelastic = false;
+  bool solids = false, hyperelastic = false, elastic = false;
   for (MaterialParameters const& material : materials) {
     (is_hypoelastic(material) ? solids : hyperelastic) = true;
+    elastic = elastic || !stores_internal_energy(material);
     if (is_hypoelastic(material)) check_solid(material, stress_free, problems);
     check_failure(spec, material, problems);
   }
@@ -221,10 +229,8 @@ Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters
   o.implicit_pressure = implicit_pressure;
   o.least_mass = number_of(spec, "min_mass_ratio", 0.3);
   o.fluctuation_viscosity = number_of(spec, "fluctuation_viscosity", 0);
-  if (double const shock = number_of(spec, "shock_viscosity", std::numeric_limits<double>::quiet_NaN());
-      !std::isnan(shock))
-    o.shock_viscosity = shock;
-  o.viscous = o.fluctuation_viscosity > 0 || (hyperelastic && o.shock_viscosity.value_or(0) > 0);
+  o.shock_viscosity = given_number(spec, "shock_viscosity");
+  o.viscous = o.fluctuation_viscosity > 0 || (elastic && o.shock_viscosity.value_or(0) > 0);
   o.energy_tolerance = number_of(spec, "energy_tolerance", implicit_pressure ? 0 : 1e-3);
   o.stress_free = stress_free;
   o.cfl = std::isnan(cfl) ? 0 : cfl;
@@ -232,6 +238,7 @@ Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters
   o.block_history = block_history;
   o.converts = converts;
   o.convert_strain = convert_strain;
+  o.conducts = std::any_of(materials.begin(), materials.end(), &conducts_heat);
   o.failure = converts || std::any_of(materials.begin(), materials.end(), &fails);
   return o;
 }

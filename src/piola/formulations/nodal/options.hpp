@@ -18,6 +18,7 @@ struct Options {
   int block_history = -1;                 ///< see FieldNeeds
   bool failure = false;                   ///< whether cells may fail
   bool converts = false;                  ///< whether such cells become Eulerian
+  bool conducts = false;                  ///< whether heat is conducted
   double convert_strain = unbounded;      ///< equivalent strain at which others do
   bool implicit_pressure = false;
   bool stress_free = false;  ///< plane stress, uniaxial stress

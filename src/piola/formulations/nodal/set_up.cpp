@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/set_up.hpp"
 #include "piola/base/errors.hpp"
+#include "piola/formulations/nodal/conduction.hpp"
 #include "piola/formulations/nodal/constrained_facets.hpp"
 #include "piola/formulations/nodal/facet_fluxes.hpp"
 #include "piola/formulations/nodal/gradient_check.hpp"
@@ -108,9 +109,9 @@ void refuse_unsolvable(SetUp const& from, LocalFits<D> const& fits) {
 
 /// Whether the body goes on between two planes.
 template <int D>
-bool is_endless(MirrorImages const& images) {
+bool is_endless(MirrorImages const* images) {
   bool any = false;
-  for (std::size_t axis = 0; axis < D; ++axis) any = any || images.endless(axis);
+  for (std::size_t axis = 0; images != nullptr && axis < D; ++axis) any = any || images->endless(axis);
   return any;
 }
 
@@ -134,14 +135,14 @@ template <int D>
 void make(SetUp const& from, Reference& r) {
   auto clock = std::chrono::steady_clock::now();
   auto const shape = shape_for_loops(from);
-  ScaledBody scaled = body_with_slits(from, shape);
+  ScaledBody scaled = body_with_slits(from, from.conducts ? std::nullopt : shape);
+  if (from.conducts) r.facets = conducting_facets(from, scaled);
   r.costs.cells = since(clock);
   refuse_without_cell(from, scaled);
   std::optional<DistributedSlots> shared;
   if (from.is_shared()) shared = DistributedSlots{from.order.slots(), from.order.particles};
-  bool const endless = from.images != nullptr && is_endless<D>(*from.images);
   // First, because its pairs reach farther than those that are kept.
-  auto const mass = masses<D>(from, scaled, shape, {shared, endless});
+  auto const mass = masses<D>(from, scaled, shape, {shared, is_endless<D>(from.images)});
   r.costs.masses = since(clock);
   if (from.failure) {
     auto refits = std::make_shared<RefitsOf<D>>(from, std::move(scaled), shared, &lines_across_slits);

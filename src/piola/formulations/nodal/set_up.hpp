@@ -39,6 +39,7 @@ struct SetUp {
   std::optional<Range> own = std::nullopt;  ///< local slots if the body is distributed; empty: all
   bool contact = false;                     ///< contact acts on the body
   bool failure = false;                     ///< cells may fail
+  bool conducts = false;                    ///< heat is conducted
 
   /// Whether the set-up is distributed over ranks. With mirror planes, or surface places that supports hold, each rank
   /// sets up the whole body.
@@ -88,6 +89,19 @@ class Refits {
   virtual bool is_intact(Index slot) const = 0;
 };
 
+/// A cell with a common facet, seen from another one: unit vector to its particle; area of the facet over the distance
+/// of the particles [m^(D-2)].
+struct CellNeighbour {
+  Index slot;
+  double area_over_distance;
+  std::array<double, 3> direction;
+};
+/// Neighbours of the cells of the local particles of a body with conduction of heat, through common facets.
+struct FacetList {
+  std::vector<std::size_t> begin;  ///< per local particle, one more at the end
+  std::vector<CellNeighbour> neighbour;
+};
+
 /// The undeformed body for the loops: values per slot, in the order of Fields. On ranks: of local slots, and V and X of
 /// ghosts. Theory: docs/theory/nodal.md, section 3.
 struct Reference {
@@ -111,6 +125,7 @@ struct Reference {
   std::unique_ptr<HaloPlan> halo;       ///< of ghosts, without fields; nullptr on one rank
   std::vector<SetUpCheck> checks;
   SetUpCosts costs;
+  FacetList facets;                ///< of a body with conduction of heat
   std::shared_ptr<Refits> refits;  ///< of a body whose cells may fail; else nullptr
 
   GradientList list() const {

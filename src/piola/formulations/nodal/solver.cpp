@@ -2,6 +2,7 @@
 #include "piola/formulations/nodal/solver.hpp"
 #include "piola/formulations/common/bodies_solver.hpp"
 #include "piola/formulations/nodal/cell_failure.hpp"
+#include "piola/formulations/nodal/conduction.hpp"
 #include "piola/formulations/nodal/energy_descent.hpp"
 #include "piola/formulations/nodal/implicit_pressure.hpp"
 #include "piola/formulations/nodal/observe.hpp"
@@ -75,6 +76,7 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
       if (failures_[k]->end_step(dt, failed)) monitors_[k]->expect_change();
       tell_frequencies(k);
       monitors_[k]->update(dt, halvings);
+      if (bodies_[k]->options().conducts && !failed) Conduction(*bodies_[k]).advance(dt);
     }
     end_step(time + dt);
   }

@@ -181,7 +181,10 @@ constexpr piola_material law =
 constinit LawInfo const p_alpha{
     .name = "p_alpha",
     .about = "porous metal or rock: pores are crushed by pressure, Mie-Grueneisen solid, constant yield stress",
-    .validity = "pores that collapse at once: shocks thicker than the pores; strength does not grow with compaction",
+    .validity =
+        "pores that collapse at once: shocks thicker than the pores; strength does not grow with compaction; shocks "
+        "that leave "
+        "pores overshoot and crush too many",
     .parameters = p_alpha_law::parameters,
     .block = &p_alpha_law::law};
 

@@ -16,9 +16,9 @@ struct FlowState {
   double compression = 1;     ///< density over that at rest
 };
 
-/// Adiabatic heating by plastic work, and the reference temperatures and rate of Johnson and Cook.
+/// Heating by plastic work, conduction of heat, and the reference temperatures and rate of Johnson and Cook.
 struct Heat {
-  static constexpr int size = 6;
+  static constexpr int size = 7;
   /// `always`: the flow stress itself depends on temperature and rate; else only the damage of Johnson and Cook does.
   static constexpr std::array<Parameter, size> parameters_for(bool always) {
     Condition const when = always ? Condition{} : Condition{"damage", "johnson_cook"};
@@ -28,7 +28,8 @@ struct Heat {
             Parameter{"reference_temperature", "K", "Tr, where T* = 0", positive, 293},
             Parameter{"melting_temperature", "K", "Tm, where T* = 1", positive, always ? no_default : unbounded,
                       always ? "" : "none (T* = 0)", when},
-            Parameter{"reference_rate", "1/s", "plastic strain rate above which rate counts", positive, 1, {}, when}};
+            Parameter{"reference_rate", "1/s", "plastic strain rate above which rate counts", positive, 1, {}, when},
+            Parameter{"conductivity", "W/(m K)", "heat conductivity; 0: heat stays where it arises", not_negative, 0}};
   }
 
   double specific_heat;       ///< [J/(kg K)]
@@ -36,6 +37,7 @@ struct Heat {
   double initial;             ///< [K]
   double reference, melting;  ///< [K]
   double reference_rate;      ///< [1/s]
+  double conductivity;        ///< [W/(m K)]
 
   PIOLA_FN Heat() : Heat(nullptr) {}
   /// v: values in the order of `parameters_for`; null: cold for ever.
@@ -47,7 +49,8 @@ struct Heat {
                               : 293),
         reference(v ? v[3] : 293),
         melting(v ? v[4] : unbounded),
-        reference_rate(v ? v[5] : 1) {}
+        reference_rate(v ? v[5] : 1),
+        conductivity(v ? v[6] : 0) {}
 
   /// T* = (T - Tr)/(Tm - Tr), between 0 and 1.
   PIOLA_FN double homologous(double temperature) const {
