@@ -29,7 +29,7 @@ constexpr std::array parameters{
     Parameter{"pressure_hardening", "1", "B", not_negative},
     Parameter{"pressure_exponent", "1", "N", not_negative},
     Parameter{"rate_coefficient", "1", "C", not_negative, 0},
-    Parameter{"rate_of_reference", "1/s", "rate0, strain rate above which rate counts", positive, 1},
+    Parameter{"reference_rate", "1/s", "rate0, strain rate above which rate counts", positive, 1},
     Parameter{"largest_strength", "1", "Smax, largest q/fc", positive, unbounded, "no limit"},
     Parameter{"fracture_coefficient", "1", "D1 of the plastic strain to fracture", positive},
     Parameter{"fracture_exponent", "1", "D2 of the plastic strain to fracture", not_negative, 1},
