@@ -73,6 +73,12 @@ std::string material_text(std::string const& name, MaterialParameters const& mat
     if (in_words || !applies(law, parameter, material)) continue;
     values.push_back(std::string(parameter.name) + " = " + quantity_text(value, parameter.unit));
   }
+  if (law.table != nullptr) {
+    LawTable const& rows = material.table;
+    values.push_back(fmt::format("{} = {} rows up to {} at {}", law.table->name, rows.count,
+                                 quantity_text(rows.y[rows.count - 1], law.table->unit),
+                                 quantity_text(rows.x[rows.count - 1], law.table->unit_of_argument)));
+  }
   return name + ": " + joined(values);
 }
 

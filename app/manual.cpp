@@ -93,10 +93,21 @@ Row row_of(KeyInfo const& info, Layout layout) {
   return {std::string(info.key), value_with_range(value_text(info), info.allowed), standard, std::string(info.meaning)};
 }
 
+Row row_of(TableParameter const& table, Layout layout) {
+  return {std::string(table.name),
+          fmt::format("rows [{}, {} in {}], up to {}, or {{ file = \"...\" }}", table.argument, table.value, table.unit,
+                      LawTable::most),
+          in_column("required", layout),
+          fmt::format("{} over {}: begins at 0 and does not fall; straight between rows, the last one holds beyond; a "
+                      "CSV file as of {{ table = [...] }}",
+                      table.value, table.argument)};
+}
+
 std::string describe_law(LawInfo const& law, Layout layout) {
   std::vector<Row> rows;
   for (Choice const& choice : law.choices) rows.push_back(row_of(choice, layout));
   for (Parameter const& parameter : law.parameters) rows.push_back(row_of(parameter, false, layout));
+  if (law.table != nullptr) rows.push_back(row_of(*law.table, layout));
   std::string const indent = layout == Layout::markdown ? "" : "  ";
   std::string valid(law.validity);
   if (!valid.empty()) valid = (layout == Layout::markdown ? "\n" : "") + indent + "Valid for " + valid + ".\n";

@@ -101,7 +101,7 @@ TYPED_TEST(SolidBattery, RateIsThatOfHookesLawAndTurnsWithTheFrame) {
 TYPED_TEST(SolidBattery, SoundSpeedIsTheStiffnessAtConstantEntropy) {
   auto const& s = this->solid;
   for (double const ratio : {0.9, 0.97, 1.05, 1.3, 1.6})
-    for (double const e : {-1e4, 0.0, 5e5}) {
+    for (double const e : {-1e4, 1e3, 5e5}) {  // Tillotson's pressure has a kink in its slope at 0
       double const rho = ratio * s.rho0, step = 1e-5 * rho, de = s.pressure(rho, e) / (rho * rho) * step;
       double const slope = (s.pressure(rho + step, e + de) - s.pressure(rho - step, e - de)) / (2 * step);
       double const c = s.sound_speed(rho, e), reference = s.kappa / s.rho0;

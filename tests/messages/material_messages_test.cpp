@@ -56,6 +56,53 @@ TEST(MaterialMessages, FailureBySpallNeedsItsStress) {
   expect_words(message, {"body.material.spall = \"hydrostatic\"", "spall_pressure", "spall = \"limit\""});
 }
 
+constexpr char const* metal = "density = 7800, youngs_modulus = 2e11, poissons_ratio = 0.3, ";
+
+std::string message_of_curve(std::string const& curve) {
+  return message_with("law = \"tabulated_hardening\", hardening_curve = " + curve + ", " + metal + "damage = \"none\"");
+}
+
+TEST(MaterialMessages, HardeningCurvesAreRowsOrAFile) {
+  EXPECT_EQ(message_of_curve("[[0, \"200 MPa\"], [0.1, 300e6]]"), "");
+  EXPECT_EQ(message_of_curve("{ table = [[0, 200], [0.1, 300]], scale = 1e6 }"), "");
+  EXPECT_TRUE(mentions(message_of_curve("{ file = \"none.csv\" }"), {"none.csv", "cannot be read"}));
+  EXPECT_TRUE(
+      mentions(message_of_curve("{ file = \"a.csv\", over = \"X\" }"), {"table.over", "hardening_curve", "remove"}));
+  EXPECT_TRUE(mentions(message_of_curve("[[0, \"200 MPa\"]]"), {"hardening_curve", "1", "2"}));
+  EXPECT_TRUE(mentions(message_of_curve("[[0, \"200 m\"], [1, 3e8]]"), {"hardening_curve[0][1]", "200 m", "Pa"}));
+  EXPECT_TRUE(mentions(message_of_curve("[[0, 2e8], [0, 3e8]]"), {"hardening_curve[1]", "increasing", "sort"}));
+  EXPECT_TRUE(mentions(message_with(std::string("law = \"tabulated_hardening\", ") + metal + "damage = \"none\""),
+                       {"body.material", "hardening_curve", "plastic strain", "yield stress", "file"}));
+}
+
+TEST(MaterialMessages, HardeningCurvesBeginAtZeroAndDoNotFall) {
+  EXPECT_TRUE(
+      mentions(message_of_curve("[[0.01, 2e8], [0.1, 3e8]]"), {"hardening_curve", "begins", "0.01", "allowed: 0"}));
+  EXPECT_TRUE(mentions(message_of_curve("[[0, 0], [0.1, 3e8]]"), {"hardening_curve", "0 Pa", "above 0"}));
+  EXPECT_TRUE(mentions(message_of_curve("[[0, 3e8], [0.1, 2e8]]"),
+                       {"hardening_curve", "falls", "300 MPa", "200 MPa", "0.1", "maximum", "damage"}));
+  std::string rows = "[0, 1e8]";
+  for (int k = 1; k <= 32; ++k) rows += ", [" + std::to_string(k) + ", 1e8]";
+  EXPECT_TRUE(mentions(message_of_curve("[" + rows + "]"), {"hardening_curve", "33 rows", "2 to 32", "slope changes"}));
+}
+
+TEST(MaterialMessages, RatesNeedTheirConstants) {
+  std::string const law = std::string("law = \"voce\", yield_stress = 2e8, voce_q = 1e8, voce_b = 10, ") + metal;
+  EXPECT_TRUE(mentions_each(message_with(law + "rate_dependence = \"cowper_symonds\""),
+                            {{"body.material", "cowper_symonds_c"}, {"body.material", "cowper_symonds_p"}}));
+  EXPECT_TRUE(mentions(message_with(law + "cowper_symonds_c = 40, damage = \"none\""),
+                       {"cowper_symonds_c", "rate_dependence = \"cowper_symonds\"", "remove"}));
+  EXPECT_TRUE(mentions(
+      message_with(law + "cowper_symonds_c = 40, cowper_symonds_p = 0.2, rate_dependence = \"cowper_symonds\""),
+      {"cowper_symonds_p", "0.2", "at least 1"}));
+}
+
+TEST(MaterialMessages, VapourIsCompleteAboveTheEnergyAtWhichItBegins) {
+  EXPECT_TRUE(mentions(message_with("name = \"aluminium_tillotson\", tillotson_ecv = \"2 MJ/kg\""),
+                       {"body.material.tillotson_ecv", "2 MJ/kg", "above tillotson_eiv", "3 MJ/kg"}));
+  EXPECT_EQ(message_with("name = \"aluminium_tillotson\", tillotson_ecv = \"20 MJ/kg\""), "");
+}
+
 TEST(MaterialMessages, NamesOfTheLibraryAreKnown) {
   EXPECT_TRUE(mentions(message_with("name = \"steel_4304\""), {"case.toml:10:21: body.material.name", "steel_4304",
                                                                "steel_4340", "more", "did you mean \"steel_4340\""}));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/base/text.hpp"
+#include "piola/base/units.hpp"
 #include "piola/input/case_files.hpp"
 #include "piola/input/law_settings.hpp"
 #include "piola/input/sections.hpp"
@@ -36,6 +37,27 @@ std::optional<double> read_parameter(Section const& section, Parameter const& pa
   return read_number({*node, section.name_of(parameter.name)}, parameter.unit, parameter.allowed, section.problems());
 }
 
+/// Text of the first fault in the rows of a law's table; empty: none.
+std::string problem_of_table(TableParameter const& table, TablePoints const& points) {
+  std::size_t const rows = points.x.size();
+  if (rows > LawTable::most)
+    return fmt::format("has {} rows (allowed: 2 to {}) - keep the rows where the slope changes", rows, LawTable::most);
+  if (points.x.front() != 0)
+    return fmt::format("begins at the {} {} (allowed: 0) - add a row for 0, or subtract the first from all",
+                       table.argument, quantity_text(points.x.front(), table.unit_of_argument));
+  if (!(points.y.front() > 0))
+    return fmt::format("begins with the {} {} (allowed: above 0) - correct it", table.value,
+                       quantity_text(points.y.front(), table.unit));
+  for (std::size_t k = 1; k < rows; ++k)
+    if (points.y[k] < points.y[k - 1])
+      return fmt::format(
+          "falls from {} to {} at the {} {} (allowed: values that do not fall) - end the table at its "
+          "maximum; damage describes what follows",
+          quantity_text(points.y[k - 1], table.unit), quantity_text(points.y[k], table.unit), table.argument,
+          quantity_text(points.x[k], table.unit_of_argument));
+  return "";
+}
+
 /// Reads the words and numbers of one material; those of the library come first, if it has a name. `keys`: the others
 /// of a table of a library file; empty in a case.
 class MaterialReader {
@@ -51,8 +73,10 @@ class MaterialReader {
     std::size_t const before = section_.problems().count();
     for (std::size_t i = 0; i < law_.choices.size(); ++i) read_choice(i);
     for (std::size_t i = 0; i < law_.parameters.size(); ++i) read_value(i);
+    if (law_.table != nullptr) read_law_table(*law_.table);
     section_.refuse_unknown(keys_);
     check_spall();
+    check_vaporisation();
     if (law_.block != nullptr && section_.problems().count() == before) check_as_a_whole();
     return material_;
   }
@@ -88,6 +112,35 @@ class MaterialReader {
     }
   }
 
+  void read_law_table(TableParameter const& table) {
+    keys_.emplace_back(table.name);
+    auto const value = given_table(table);
+    if (!value) return;
+    auto const points = read_table_points(*value, {table.unit_of_argument, table.unit}, section_.problems());
+    if (!points) return;
+    if (std::string const wrong = problem_of_table(table, *points); !wrong.empty())
+      return section_.problems().add(value->node.place, value->name + " " + wrong);
+    material_.table.count = static_cast<int>(points->x.size());
+    std::copy(points->x.begin(), points->x.end(), material_.table.x);
+    std::copy(points->y.begin(), points->y.end(), material_.table.y);
+  }
+
+  std::optional<Value> given_table(TableParameter const& table) {
+    std::string const key(table.name);
+    if (in_library_) {
+      section_.problems().add(section_.place(), fmt::format("{}: the law {} has a table, which library files cannot "
+                                                            "hold - give law and {} in the case",
+                                                            section_.name(), law_.name, key));
+    } else if (Node const* const node = section_.node().find(key)) {
+      return Value{*node, section_.name_of(key)};
+    } else {
+      section_.report_missing(key, fmt::format("rows of {} and {}, or a CSV file", table.argument, table.value),
+                              fmt::format("{} = [[0, \"... {}\"], [0.1, \"... {}\"]], or {{ file = \"...\" }}", key,
+                                          table.unit, table.unit));
+    }
+    return std::nullopt;
+  }
+
   std::string example_of(Parameter const& parameter) const {
     std::string const number = parameter.unit == "1" ? "..." : "\"... " + std::string(parameter.unit) + "\"";
     return in_library_ ? "{ value = " + number + ", source = \"...\", checked = \"read\" }" : number;
@@ -114,6 +167,20 @@ class MaterialReader {
         section_.place_of("spall"),
         fmt::format("{} = \"{}\" needs spall_pressure, which has no limit here - give it, or spall = \"limit\"",
                     section_.name_of("spall"), choice->allowed[word]));
+  }
+
+  /// Tillotson's equation of state weights two states between two energies.
+  void check_vaporisation() {
+    double begins = 0, ends = 0;
+    for (std::size_t i = 0; i < law_.parameters.size(); ++i) {
+      if (law_.parameters[i].name == "tillotson_eiv") begins = material_.value[i];
+      if (law_.parameters[i].name == "tillotson_ecv") ends = material_.value[i];
+    }
+    if (begins == 0 || ends == 0 || ends > begins) return;
+    section_.problems().add(
+        section_.place_of("tillotson_ecv"),
+        fmt::format("{} is {} (allowed: above tillotson_eiv, which is {}) - correct one of the two",
+                    section_.name_of("tillotson_ecv"), quantity_text(ends, "J/kg"), quantity_text(begins, "J/kg")));
   }
 
   void report_useless(Parameter const& parameter) {

@@ -16,11 +16,6 @@
 namespace piola {
 namespace {
 
-/// The points of a table in SI units, in their order.
-struct TablePoints {
-  std::vector<double> x, y;
-};
-
 /// Units of the two columns; empty: any, as given.
 struct TableUnits {
   std::string x, y;
@@ -259,7 +254,41 @@ std::string text_of_table(TableSpec const& spec, std::string const& over, TableP
                      outside(spec.options.after, points.y.back()));
 }
 
+/// Whether a table has exactly one of rows and the name of a file.
+bool has_one_source(Section const& section, std::string const& name) {
+  bool const rows = section.has("table"), file = section.has("file");
+  if (rows == file) section.refuse_count(name, rows ? 2 : 0, "table, file");
+  if (!file) section.refuse("column", "is used only with file");
+  return rows != file && file == (file && section.node().find("file")->is_text());
+}
+
+TablePoints points_of(Section const& section, TableSpec const& spec, TableUnits const& units) {
+  if (section.has("table")) return points_of_rows(*section.find("table"), units, section.problems());
+  return points_of_file(section, spec.file, spec.column, units);
+}
+
 }  // namespace
+
+std::optional<TablePoints> read_table_points(Value const& value, std::array<std::string_view, 2> const& units,
+                                             Problems& problems) {
+  TableUnits const of{std::string(units[0]), std::string(units[1])};
+  std::size_t const before = problems.count();
+  TablePoints points;
+  if (!value.node.is_table()) {
+    points = points_of_rows(value, of, problems);
+  } else {
+    Section const section(value.node, "table", problems);
+    TableSpec spec;
+    read_members(section, table_keys(), spec);
+    for (char const* const key : {"over", "interpolation", "before", "after", "derivative"})
+      section.refuse(key, "is for tables in place of formulas, not for " + value.name);
+    section.refuse_unknown();
+    if (has_one_source(section, value.name) && problems.count() == before) points = points_of(section, spec, of);
+    for (double& y : points.y) y *= spec.scale;
+  }
+  if (problems.count() > before) return std::nullopt;
+  return points;
+}
 
 std::optional<Expression> read_table(Value const& value, std::string_view unit, Names const& names,
                                      Problems& problems) {
@@ -270,14 +299,9 @@ std::optional<Expression> read_table(Value const& value, std::string_view unit, 
   spec.options.gives = spec.derivative ? TableFunction::Gives::slope : TableFunction::Gives::value;
   auto over = section.has("over") ? section.formula("over", names) : Expression("t");
   section.refuse_unknown();
-  bool const rows = section.has("table"), file = section.has("file");
-  if (rows == file) section.refuse_count(value.name, rows ? 2 : 0, "table, file");
-  if (!file) section.refuse("column", "is used only with file");
-  bool const named = file && section.node().find("file")->is_text();
-  if (!over || rows == file || file != named) return std::nullopt;
+  if (!has_one_source(section, value.name) || !over) return std::nullopt;
   TableUnits const units{unit_of_argument(over->text()), unit_of_values(section, spec, over->text(), unit)};
-  TablePoints points = rows ? points_of_rows(*section.find("table"), units, problems)
-                            : points_of_file(section, spec.file, spec.column, units);
+  TablePoints points = points_of(section, spec, units);
   if (problems.count() > before) return std::nullopt;
   std::string const text = text_of_table(spec, over->text(), points, units, spec.scale);
   for (double& y : points.y) y *= spec.scale;

@@ -4,6 +4,7 @@
 #include "piola/base/parameter.hpp"
 #include "piola/input/case_keys.hpp"
 #include "piola/input/document.hpp"
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,6 +34,14 @@ std::optional<Expression> read_formula(Value const& value, std::string_view unit
                                        Problems& problems);
 /// The part of read_formula() for a table such as { table = [[0, 0], ["1 ms", "5 kN"]] } or { file = "force.csv" }.
 std::optional<Expression> read_table(Value const& value, std::string_view unit, Names const& names, Problems& problems);
+/// The points of a table in SI units, in their order.
+struct TablePoints {
+  std::vector<double> x, y;
+};
+/// The rows of a table, its argument increasing: a list of pairs or { file = "curve.csv" }. `units`: of argument and
+/// values.
+std::optional<TablePoints> read_table_points(Value const& value, std::array<std::string_view, 2> const& units,
+                                             Problems& problems);
 /// The items of a list whose length is between `least` and `most`; nothing if it is no such list.
 std::optional<std::vector<Value>> read_list(Value const& value, std::size_t least, std::size_t most,
                                             Problems& problems);

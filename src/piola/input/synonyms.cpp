@@ -61,6 +61,9 @@ constexpr std::array synonyms{
     Synonym{" jc ", "johnson_cook", "law"},
     Synonym{" jh2 jh ", "johnson_holmquist", "law"},
     Synonym{" hardening linearhardening bilinear ", "isotropic_hardening", "law"},
+    Synonym{" piecewiselinear piecewiselinearplasticity table tabulated plasticitytable ", "tabulated_hardening",
+            "law"},
+    Synonym{" saturation exponentialhardening vocehardening ", "voce", "law"},
 };
 
 /// "Young_Modulus" becomes " youngmodulus ".

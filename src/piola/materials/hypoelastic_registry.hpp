@@ -9,6 +9,8 @@
 #include "piola/materials/plastic/none.hpp"
 #include "piola/materials/plastic/perfect.hpp"
 #include "piola/materials/plastic/steinberg_guinan.hpp"
+#include "piola/materials/plastic/tabulated_hardening.hpp"
+#include "piola/materials/plastic/voce.hpp"
 #include "piola/materials/plastic/zerilli_armstrong.hpp"
 #include <array>
 
@@ -27,16 +29,26 @@ struct EquationsFor {
 /// A law of a solid in the registry: a strength with its equations of state.
 template <class Strength>
 struct SolidLaw {
-  static constexpr std::array<Choice, 3> all_choices{
+  static constexpr std::array<Choice, 4> all_choices{
       Choice{"eos", "equation of state: pressure by density and energy", EquationsFor<Strength>::List::words},
       Choice{"damage", "growth of damage with plastic strain", EquationsFor<Strength>::damage},
       Choice{"spall",
              "what follows from tension at spall_pressure; limit: the pressure goes no lower, nothing opens; "
              "hydrostatic: the material fails there (damage 1); principal: it fails where the largest principal stress "
              "reaches spall_pressure",
-             spall_words}};
+             spall_words},
+      Choice{"rate_dependence",
+             "growth of the yield stress with the plastic strain rate; cowper_symonds: by 1 + (rate/C)^(1/p)",
+             CowperSymonds::words}};
+  static constexpr bool has_rate_dependence = requires { Strength::has_rate_dependence; };
   /// A solid that does not yield has no damage: it cannot fail.
-  static constexpr std::span<Choice const> choices{all_choices.data(), Strength::yields ? 3u : 1u};
+  static constexpr std::span<Choice const> choices{all_choices.data(),
+                                                   has_rate_dependence ? 4u : (Strength::yields ? 3u : 1u)};
+  /// The table of the strength; null: it has none.
+  static constexpr TableParameter const* table = [] {
+    if constexpr (requires { Strength::table; }) return &Strength::table;
+    return static_cast<TableParameter const*>(nullptr);
+  }();
 
  private:
   static constexpr auto joined_parameters() {
@@ -66,8 +78,8 @@ template <class... Strength>
 struct StrengthList {
   static constexpr int size = sizeof...(Strength);
 };
-using Strengths = StrengthList<NoPlasticity, PerfectPlasticity, IsotropicHardening, JohnsonCook, ZerilliArmstrong,
-                               JohnsonHolmquist, SteinbergGuinan>;
+using Strengths = StrengthList<NoPlasticity, PerfectPlasticity, IsotropicHardening, Voce, TabulatedHardening,
+                               JohnsonCook, ZerilliArmstrong, JohnsonHolmquist, SteinbergGuinan>;
 
 /// Whether the material is a solid in rate form.
 inline bool is_hypoelastic(MaterialParameters const& material) {
@@ -78,7 +90,8 @@ template <class Strength, class F, class... Eos>
 void with_eos(MaterialParameters const& material, F const& f, EosList<Eos...>) {
   int index = 0;
   int const wanted = material.word[SolidLayout<Strength>::eos_word];
-  (void)((index++ == wanted ? (f(Solid<Strength, Eos>(material)), true) : false) || ...);
+  using Runs = typename SolidOf<Strength>::Runs;
+  (void)((index++ == wanted ? (f(Solid<Runs, Eos>(material, SolidOf<Strength>{})), true) : false) || ...);
 }
 template <class F, class... Strength>
 void with_solid(MaterialParameters const& material, F const& f, StrengthList<Strength...>) {
@@ -88,7 +101,7 @@ void with_solid(MaterialParameters const& material, F const& f, StrengthList<Str
          ...);
 }
 
-/// Calls f(solid) with the solid in rate form of `material`, one of two dozen types; does nothing for other laws.
+/// Calls f(solid) with the solid in rate form of `material`, one of three dozen types; does nothing for other laws.
 template <class F>
 void with_solid(MaterialParameters const& material, F const& f) {
   with_solid(material, f, Strengths{});

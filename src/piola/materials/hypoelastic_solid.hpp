@@ -46,6 +46,28 @@ struct SolidLayout {
   static constexpr int eos_word = 0, damage_word = 1, spall_word = 2;
 };
 
+/// Tag of a law of the registry by its strength. Solids carry its part `Runs`, if it names one, so that laws share the
+/// types of their solids.
+template <class Strength>
+struct SolidOf {
+  using Runs = Strength;
+};
+template <class Strength>
+  requires requires { typename Strength::Runs; }
+struct SolidOf<Strength> {
+  using Runs = typename Strength::Runs;
+};
+
+/// The strength of a material.
+template <class Strength>
+PIOLA_SHARED inline Strength made_strength(MaterialParameters const& material, Heat const& heat) {
+  double const* const values = material.value + SolidLayout<Strength>::strength;
+  if constexpr (requires { Strength::table; })
+    return Strength(values, heat, material.table);
+  else
+    return Strength(values, heat);
+}
+
 /// von Mises stress sqrt(3/2 S:S) of a deviator [Pa].
 template <class V>
 PIOLA_FN V von_mises(SymMat<3, V> const& S) {
@@ -74,9 +96,11 @@ class Solid {
   Fracture fracture;
   Scatter scatter;  ///< of the failure strength of particles
 
-  PIOLA_SHARED inline explicit Solid(MaterialParameters const& material)
+  /// The solid of a law of the registry, whose strength is this one or derives from it.
+  template <class Law = Strength>
+  PIOLA_SHARED inline explicit Solid(MaterialParameters const& material, SolidOf<Law> law = {})
       : Solid(ElasticConstants(material.value), material,
-              Heat(Strength::yields ? material.value + Layout::heat : nullptr)) {}
+              Heat(Strength::yields ? material.value + SolidLayout<Law>::heat : nullptr), law) {}
 
   /// Pressure, positive in compression, not below -spall_pressure [Pa]. rho: density [kg/m^3], e: specific energy
   /// [J/kg].
@@ -206,20 +230,21 @@ class Solid {
  private:
   static constexpr double no_fracture[Fracture::size] = {unbounded, 0, 0};
 
-  Solid(ElasticConstants const& elastic, MaterialParameters const& m, Heat const& heat)
+  template <class Law>
+  Solid(ElasticConstants const& elastic, MaterialParameters const& m, Heat const& heat, SolidOf<Law>)
       : rho0(elastic.rho0),
         mu(elastic.mu),
         kappa(0),
-        spall_pressure(m.value[Layout::spall]),
+        spall_pressure(m.value[SolidLayout<Law>::spall]),
         damages(false),
-        fracture(Strength::brittle ? no_fracture : m.value + Layout::fracture),
-        scatter(m.value + Layout::scatter),
+        fracture(Strength::brittle ? no_fracture : m.value + SolidLayout<Law>::fracture),
+        scatter(m.value + SolidLayout<Law>::scatter),
         wears_(Strength::brittle || (Strength::yields && m.word[Layout::damage_word] > 0)),
         spall_(Strength::yields ? m.word[Layout::spall_word] : 0),
         heat_(heat),
-        strength_(m.value + Layout::strength, heat),
-        eos_(make_eos<Eos>(elastic.rho0, elastic.kappa, m.value + Layout::eos)),
-        damage_(m.value + Layout::damage, heat) {
+        strength_(made_strength<Law>(m, heat)),
+        eos_(make_eos<Eos>(elastic.rho0, elastic.kappa, m.value + SolidLayout<Law>::eos)),
+        damage_(m.value + SolidLayout<Law>::damage, heat) {
     kappa = eos_.bulk_modulus();
     damages = wears_ || spall_ > 0;
   }
@@ -238,9 +263,9 @@ class Solid {
                        V const& last_flow) const {
     if constexpr (!Strength::yields) {
       return V(0.0);
-    } else if constexpr (requires { strength_.increments(mises, mu, h.plastic_strain); }) {
-      return strength_.increments(mises, 3 * mu, h.plastic_strain);
     } else {
+      if constexpr (requires { strength_.increments(mises, mu, h.plastic_strain); })
+        if (strength_.closed_form()) return strength_.increments(mises, 3 * mu, h.plastic_strain);
       V least(0.0);
       if constexpr (requires { strength_.least_yield_stress(h.temperature); })
         least = strength_.least_yield_stress(h.temperature);

@@ -28,6 +28,7 @@ constexpr auto table(LawList<Law...>, StrengthList<Strength...>) {
                             .hypoelastic = true,
                             .brittle = Strength::brittle,
                             .choices = SolidLaw<Strength>::choices,
+                            .table = SolidLaw<Strength>::table,
                             .index = index++}...};
 }
 

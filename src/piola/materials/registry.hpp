@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/base/parameter.hpp"
+#include "piola/materials/law_table.hpp"
 #include <optional>
 #include <span>
 #include <string_view>
@@ -22,6 +23,7 @@ struct LawInfo {
   bool elastic_rate = false;      ///< a hyperelastic law that also gives its stress rate (RateForm in laws.hpp)
   bool brittle = false;           ///< a solid whose damage is part of its strength
   std::span<Choice const> choices = {};
+  TableParameter const* table = nullptr;  ///< the rows that the law needs; null: none
   piola_material const* block = nullptr;  ///< description of a law on blocks of points (block_law.hpp), whose first
                                           ///< parameter is the density; null: another law
   std::string_view library{};             ///< file of a law of the user's; empty: the law is Piola's
@@ -34,6 +36,7 @@ struct MaterialParameters {
   int law = 0;                 ///< LawInfo::index
   double value[max_values]{};  ///< in the order of LawInfo::parameters, SI
   int word[max_words]{};       ///< in the order of LawInfo::choices: which of the allowed words
+  LawTable table{};            ///< of LawInfo::table, SI
 };
 
 /// The laws of Piola.

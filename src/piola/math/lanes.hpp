@@ -121,4 +121,12 @@ PIOLA_INLINE_FN V load(double const* p) {
 template <class V>
 inline constexpr int width = std::is_same_v<V, double> ? 1 : lane_count;
 
+/// exp(a), lane by lane.
+template <class V>
+PIOLA_FN V exponential(V const& a) {
+  double r[width<V>];
+  for (int l = 0; l < width<V>; ++l) r[l] = std::exp(lane(a, l));
+  return load<V>(r);
+}
+
 }  // namespace piola::inline PIOLA_BACKEND

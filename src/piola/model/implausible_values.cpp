@@ -49,7 +49,7 @@ void check_strength(MaterialLooked const& of, Problems& slips) {
   with_any_law(of.material, [&](auto const& law) { modulus = law.rho0 * law.p_wave_speed() * law.p_wave_speed(); });
   of.note(slips, "spall_pressure",
           implausible(plausible_range("spall_pressure"), of.value("spall_pressure"), modulus, "Pa"));
-  for (char const* key : {"hardening_coefficient", "hardening_modulus", "thermal_hardening"}) {
+  for (char const* key : {"hardening_coefficient", "hardening_modulus", "thermal_hardening", "voce_q"}) {
     double const value = of.value(key);
     if (value > 0) of.note(slips, key, implausible(plausible_range("hardening"), value, youngs, "Pa"));
   }

@@ -22,6 +22,7 @@
 #include "piola/setup/contact_surface.hpp"
 #include <algorithm>
 #include <bit>
+#include <span>
 #include <string_view>
 
 namespace piola {
@@ -334,7 +335,9 @@ void require_identical_case(Assembly const& assembly) {
   add_points(assembly.initial_velocity);
   for (double const volume : assembly.particles.volume) add(volume);
   for (MaterialParameters const& material : assembly.materials)
-    for (double const value : material.value) add(value);
+    for (auto const& values : {std::span<double const>(material.value), std::span<double const>(material.table.x),
+                               std::span<double const>(material.table.y)})
+      for (double const value : values) add(value);
   if (comm::all_equal(hash)) return;
   throw comm::CollectiveError(
       {bad_input,

@@ -142,6 +142,13 @@ void add_choices(std::span<Choice const> choices, Json& properties) {
   }
 }
 
+Json table_schema(TableParameter const& table) {
+  Json schema{{"type", {"array", "object"}}};
+  schema["description"] =
+      fmt::format("rows [{}, {} in {}], or {{ file = \"...\" }}", table.argument, table.value, table.unit);
+  return schema;
+}
+
 /// A law with all of its keys, or a material of the library with this law.
 Json law_schema(LawInfo const& law) {
   Json names = Json::array(), needed = {"law"}, properties = Json::object();
@@ -154,6 +161,10 @@ Json law_schema(LawInfo const& law) {
   for (Parameter const& parameter : law.parameters) {
     properties[std::string(parameter.name)] = parameter_schema(parameter);
     if (parameter.required() && parameter.when.always()) needed.push_back(parameter.name);
+  }
+  if (law.table != nullptr) {
+    properties[std::string(law.table->name)] = table_schema(*law.table);
+    needed.push_back(law.table->name);
   }
   Json schema{{"type", "object"},
               {"title", law.name},

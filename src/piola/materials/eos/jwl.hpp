@@ -69,13 +69,6 @@ class JwlEos {
     V value, slope;
   };
 
-  template <class T>
-  PIOLA_FN static T exponential(T const& a) {
-    double r[width<T>];
-    for (int l = 0; l < width<T>; ++l) r[l] = std::exp(lane(a, l));
-    return load<T>(r);
-  }
-
   /// One exponential of the density, and its derivative.
   template <class T>
   PIOLA_FN Term<T> term(double factor, double r, T const& rho) const {

@@ -5,6 +5,7 @@
 #include "piola/materials/eos/mie_grueneisen.hpp"
 #include "piola/materials/eos/polynomial.hpp"
 #include "piola/materials/eos/stiffened_gas.hpp"
+#include "piola/materials/eos/tillotson.hpp"
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -21,7 +22,7 @@ struct EosList {
 
 /// All equations of state, in the order of their numbers in MaterialParameters::word and of their parameters. Adding
 /// one: its header and one name here.
-using EquationsOfState = EosList<ElasticEos, StiffenedGas, MieGrueneisen, PolynomialEos, JwlEos>;
+using EquationsOfState = EosList<ElasticEos, StiffenedGas, MieGrueneisen, PolynomialEos, JwlEos, Tillotson>;
 
 /// Whether the equation of state is that of an explosive, which a front burns.
 template <class Eos> concept Explosive = requires(Eos const& eos) { eos.front_speed; };
@@ -86,8 +87,9 @@ inline constexpr auto eos_places = [] {
 /// values: in the order of `eos_parameters`.
 template <class Eos>
 Eos make_eos(double density, double bulk_modulus, double const* values) {
+  constexpr auto places = eos_places<Eos>;  // a copy: objects of several backends must not share a symbol
   std::array<double, Eos::parameters.size()> own{};
-  for (std::size_t k = 0; k != own.size(); ++k) own[k] = values[eos_places<Eos>[k]];
+  for (std::size_t k = 0; k != own.size(); ++k) own[k] = values[places[k]];
   return Eos(density, bulk_modulus, own.data());
 }
 
