@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """*MATERIAL of Abaqus as keys of Piola."""
-from .materials import from_moduli, hyperelastic, johnson_cook, plastic, tabulated
+from .materials import cowper_symonds, from_moduli, hyperelastic, johnson_cook, plastic, tabulated
 from .model import Material
 
 READ = {"DENSITY", "ELASTIC", "PLASTIC", "RATE DEPENDENT", "HYPERELASTIC", "EOS", "SPECIFIC HEAT",
@@ -77,8 +77,11 @@ def _plastic(card, density, elastic):
         material.notes.append("its kinematic hardening is taken as isotropic (the same until the load reverses)")
     if len(rows) < len(keyword.lines):
         material.notes.append("its yield stress depends on temperature or rate: the first of its curves counts")
-    if card.kind("RATE DEPENDENT", "TYPE") or "RATE DEPENDENT" in card.options:
+    if card.kind("RATE DEPENDENT", "TYPE") not in ("", "POWER LAW"):
         material.notes.append("its rate dependence is left out")
+    elif "RATE DEPENDENT" in card.options:
+        rate, exponent = card.row("RATE DEPENDENT")[:2]
+        cowper_symonds(material, rate / card.units.time, exponent)
     return material
 
 

@@ -30,6 +30,7 @@ class _Reader:
         self.model, self.names = Model(), set()
         self.sets = {"NODE": {}, "PART": {}, "SOLID": {}}  # by number: name and ids
         self.held = {}                                     # axes -> ids of nodes
+        self.curves = set()                                # numbers of those that materials have
 
     def read(self):
         if not any(b.keyword in ("NODE", "PART") or b.keyword.startswith(("ELEMENT", "MAT_")) for b in self.blocks):
@@ -106,7 +107,7 @@ class _Reader:
                 continue
             kind = kind_of(block.keyword)
             keys, notes = self._eos(eos)
-            material = kind(Card(block, first, self.units, self.problems, keys)) if kind else None
+            material = kind(Card(block, first, self.units, self.problems, keys, self._curve)) if kind else None
             if material is None:
                 self.model.left.add(block.keyword, block.place, "no law of Piola has these numbers: give the material")
                 return None
@@ -118,6 +119,21 @@ class _Reader:
                 self.problems.add(block.place, f"*{block.keyword}, {material.name}: {text} - correct it")
             return material
         self.problems.add(place, f"the part has material {mid}, which is not there - add its *MAT card")
+        return None
+
+    def _curve(self, number):
+        """Points of a *DEFINE_CURVE whose abscissas grow, scaled and moved as it says; None if there is none."""
+        for block in self.blocks:
+            first = int(block.keyword.endswith("_TITLE"))
+            if block.keyword.removesuffix("_TITLE") != "DEFINE_CURVE" or _id_of(block, first) != number:
+                continue
+            _, _, scale_a, scale_o, offset_a, offset_o = block.card(first, self.problems)[:6]
+            rows = [block.card(row, self.problems, 2, (20, 20)) for row in range(first + 1, len(block.lines))]
+            points = [((scale_a or 1.0) * (a + offset_a), (scale_o or 1.0) * (o + offset_o)) for a, o in rows]
+            if not all(b[0] > a[0] for a, b in zip(points, points[1:])):
+                return None
+            self.curves.add(number)
+            return points
         return None
 
     def _eos(self, eos):
@@ -192,6 +208,8 @@ class _Reader:
         keyword, left = block.keyword, self.model.left
         if keyword in SILENT | {"PART", "ELEMENT_SOLID"} or keyword.startswith(("SET_NODE", "SET_PART", "SET_SOLID",
                                                                                "SET_SEGMENT")):
+            return
+        if keyword.startswith("DEFINE_CURVE") and _id_of(block, int(keyword.endswith("_TITLE"))) in self.curves:
             return
         if keyword.startswith(("MAT_", "EOS_")):
             if kind_of(keyword) is None and keyword.startswith("MAT_"):

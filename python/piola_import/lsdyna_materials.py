@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Material cards and equations of state of LS-DYNA as keys of Piola (LS-DYNA Keyword Manual, Volumes I and II)."""
-from .materials import fracture_strain, from_moduli, hyperelastic, johnson_cook, plastic, tabulated
+from .materials import (cowper_symonds, fracture_strain, from_moduli, hyperelastic, johnson_cook, plastic,
+                        tabulated)
 from .model import Material
 
 # Card numbers and names; both stand for the function of the same entry.
@@ -20,11 +21,12 @@ def kind_of(keyword):
 
 
 class Card:
-    """A material card: rows of numbers from the line after the title, with units; `eos` has keys, c0 and c1."""
+    """A material card: rows of numbers from the line after the title, with units; `eos` has keys, c0 and c1, `curve`
+    gives the points of a curve by its number, or None."""
 
-    def __init__(self, block, first, units, problems, eos):
+    def __init__(self, block, first, units, problems, eos, curve):
         self.block, self.first, self.units, self.problems = block, first, units, problems
-        self.eos = eos or {}
+        self.eos, self.curve = eos or {}, curve
         self.name = f"material {block.fields(first)[0]}"
 
     def row(self, k, count=8):
@@ -54,15 +56,14 @@ def elastic(card):
 @card_of("003", "3", "PLASTIC_KINEMATIC")
 def plastic_kinematic(card):
     _, density, E, nu, yield_stress, tangent, beta, _ = card.row(0)
-    rate_c, _, strain = card.row(1)[:3]
+    rate_c, rate_p, strain = card.row(1)[:3]
     material = plastic(card.name, density * card.units.density, card.elastic(E, nu), yield_stress * card.stress,
                        _hardening(E, tangent) * card.stress)
     fracture_strain(material, strain)
     if tangent > 0 and beta < 1:
         material.notes.append(f"BETA = {beta:g}: its kinematic hardening is taken as isotropic (the same until the "
                               "load reverses)")
-    if rate_c > 0:
-        material.notes.append("its rate dependence (Cowper and Symonds, SRC and SRP) is left out")
+    cowper_symonds(material, rate_c / card.units.time, rate_p)
     return material
 
 
@@ -98,21 +99,25 @@ def elastic_plastic_hydro(card):
 @card_of("024", "24", "PIECEWISE_LINEAR_PLASTICITY")
 def piecewise_linear(card):
     _, density, E, nu, yield_stress, tangent, strain, _ = card.row(0)
-    rate_c, _, curve, curve_of_rate = card.row(1)[:4]
-    strains, stresses = card.row(2), card.row(3)
-    count = sum(value > 0 for value in stresses)
+    rate_c, rate_p, curve, curve_of_rate = card.row(1)[:4]
+    points = card.curve(int(curve)) if curve else None
+    if points is None:
+        count = sum(value > 0 for value in card.row(3))
+        points = list(zip(card.row(2), card.row(3)))[:count]
     elastic_keys, density = card.elastic(E, nu), density * card.units.density
-    if count > 1:
-        stresses = [s * card.stress for s in stresses[:count]]
-        material = tabulated(card.name, density, elastic_keys, stresses, strains[:count])
+    if len(points) > 1:
+        strains, stresses = zip(*points)
+        material = tabulated(card.name, density, elastic_keys, [s * card.stress for s in stresses], strains)
     else:
         material = plastic(card.name, density, elastic_keys, yield_stress * card.stress,
                            _hardening(E, tangent) * card.stress)
     fracture_strain(material, strain if strain < 1e10 else 0)
-    if curve:
-        material.notes.append(f"its curve of yield stresses (LCSS = {curve:g}) is left out: SIGY and ETAN count")
-    if rate_c > 0 or curve_of_rate:
-        material.notes.append("its rate dependence (C and P, or LCSR) is left out")
+    if curve and card.curve(int(curve)) is None:
+        material.notes.append(f"its curves of yield stresses (LCSS = {curve:g}) are no *DEFINE_CURVE of growing strains "
+                              "and are left out: SIGY and ETAN count")
+    cowper_symonds(material, rate_c / card.units.time, rate_p)
+    if curve_of_rate:
+        material.notes.append("its rate dependence (LCSR) is left out")
     return material
 
 

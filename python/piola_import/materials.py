@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Conversions of constants that several programs share. All numbers are in SI."""
+import numpy as np
+
 from .model import Material
 
 
@@ -24,18 +26,52 @@ def fracture_strain(material, strain):
         material.keys |= {"damage": "johnson_cook", "d1": strain}
 
 
+MOST_ROWS = 32  # of hardening_curve
+
+
 def tabulated(name, density, elastic, stresses, strains):
-    """Yield stresses over plastic strains as linear hardening; tells how far the line is from the table."""
-    first, last = stresses[0], stresses[-1]
-    slope = 0.0 if len(strains) < 2 else (last - first) / (strains[-1] - strains[0])
-    material = plastic(name, density, elastic, first, max(slope, 0.0))
-    off = max(abs(first + slope * (strain - strains[0]) - stress) for stress, strain in zip(stresses, strains))
-    if slope < 0:
-        material.notes.append("its yield stress falls with strain: taken as constant")
-    elif off > 0.01 * max(stresses):
-        material.notes.append(f"its table of yield stresses is no line: linear hardening between its ends is up to "
+    """Yield stresses over plastic strains: linear hardening if they are on a line, else a table."""
+    grown = np.maximum.accumulate(stresses)
+    slope = 0.0 if len(strains) < 2 else (grown[-1] - grown[0]) / (strains[-1] - strains[0])
+    off = max(abs(grown[0] + slope * (strain - strains[0]) - stress) for stress, strain in zip(grown, strains))
+    if off > 0.001 * grown[-1]:
+        material = _table(name, density, elastic, grown, strains)
+    else:
+        material = plastic(name, density, elastic, float(grown[0]), float(slope))
+    if max(grown - stresses) > 0.001 * grown[-1]:
+        material.notes.append("its yield stress falls with strain: from there on it is taken as constant")
+    return material
+
+
+def _table(name, density, elastic, stresses, strains):
+    """The law tabulated_hardening, of the rows that the table needs most."""
+    rows = [(float(strain), float(stress)) for strain, stress in zip(strains, stresses)]
+    if rows[0][0] > 0:
+        rows.insert(0, (0.0, rows[0][1]))
+    kept, off = list(rows), 0.0
+    while len(kept) > MOST_ROWS:
+        heights = [abs(b[1] - np.interp(b[0], (a[0], c[0]), (a[1], c[1]))) for a, b, c in zip(kept, kept[1:], kept[2:])]
+        del kept[1 + int(np.argmin(heights))]
+    if len(kept) < len(rows):
+        off = max(abs(stress - np.interp(strain, *zip(*kept))) for strain, stress in rows)
+    material = Material(name, {"law": "tabulated_hardening", "density": density, **elastic,
+                               "hardening_curve": [list(row) for row in kept]})
+    if off > 0:
+        material.notes.append(f"its table of yield stresses has {len(rows)} rows: {MOST_ROWS} of them are up to "
                               f"{off / 1e6:.4g} MPa off")
     return material
+
+
+def cowper_symonds(material, rate, exponent):
+    """The factor 1 + (rate/C)^(1/p) of the yield stress. rate: C in 1/s; 0: none."""
+    if rate <= 0:
+        return
+    if exponent < 1:
+        material.notes.append(f"its rate dependence (Cowper and Symonds) has p = {exponent:g}, below 1: it is left out")
+        return
+    if material.keys["law"] == "perfectly_plastic":
+        material.keys |= {"law": "isotropic_hardening", "hardening_modulus": 0.0}
+    material.keys |= {"rate_dependence": "cowper_symonds", "cowper_symonds_c": rate, "cowper_symonds_p": exponent}
 
 
 def hyperelastic(name, density, c10, c01, bulk=None, nu=None):
@@ -72,6 +108,7 @@ def problems_of(material):
             found.append(f"its {key.replace('_', ' ').replace('youngs', 'Youngs')} is {keys[key]:g} (positive)")
     if not -1 < keys["poissons_ratio"] < 0.5:
         found.append(f"its Poisson's ratio is {keys['poissons_ratio']:g} (between -1 and 0.5)")
-    if "yield_stress" in keys and not keys["yield_stress"] > 0:
-        found.append(f"its yield stress is {keys['yield_stress']:g} (positive)")
+    first = keys.get("yield_stress", keys.get("hardening_curve", [[0, 1]])[0][1])
+    if not first > 0:
+        found.append(f"its yield stress is {first:g} (positive)")
     return found

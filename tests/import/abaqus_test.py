@@ -104,10 +104,12 @@ class Materials(InFolder):
                                law="isotropic_hardening", density=7850, youngs_modulus=210e9, poissons_ratio=0.3,
                                yield_stress=300e6, hardening_modulus=1e9)
         self.assertIn("Everything in the file was understood", output)
-        output = self.material("*DENSITY\n7.85e-9\n*ELASTIC\n210000, 0.3\n*PLASTIC\n300, 0\n430, 0.1\n500, 0.2\n",
-                               law="isotropic_hardening", density=7850, youngs_modulus=210e9, poissons_ratio=0.3,
-                               yield_stress=300e6, hardening_modulus=1e9)
-        self.assertIn("30 MPa off", output)
+        output = self.material("*DENSITY\n7.85e-9\n*ELASTIC\n210000, 0.3\n*PLASTIC\n300, 0\n430, 0.1\n500, 0.2\n"
+                               "*RATE DEPENDENT\n40, 5\n", law="tabulated_hardening", density=7850,
+                               youngs_modulus=210e9, poissons_ratio=0.3, rate_dependence="cowper_symonds",
+                               hardening_curve=[[0, 300e6], [0.1, 430e6], [0.2, 500e6]], cowper_symonds_c=40,
+                               cowper_symonds_p=5)
+        self.assertIn("Everything in the file was understood", output)
 
     def test_johnson_cook_with_damage_turns_the_sign_of_d3(self):
         self.material("*DENSITY\n7.83e-9\n*ELASTIC\n200000, 0.29\n*SPECIFIC HEAT\n477e6\n"

@@ -77,7 +77,7 @@ class InFolder(unittest.TestCase):
             if isinstance(value, str):
                 self.assertEqual(found[key], value)
             else:
-                self.assertAlmostEqual(found[key] / value, 1, places=9, msg=key)
+                np.testing.assert_allclose(found[key], value, rtol=1e-9, err_msg=key)
 
     def imported(self, name, text, *arguments):
         """Writes a file, imports it into "out", checks the case with piola check; returns case, output, its check."""

@@ -142,9 +142,12 @@ class Materials(InFolder):
         text = "*MAT_PLASTIC_KINEMATIC\n" + card(1, "8.93E-6", 117, 0.35, 0.4, 0.1, 1.0) + card(None, None, 0.6)
         self.material(text, law="isotropic_hardening", density=8930, youngs_modulus=117e9, poissons_ratio=0.35,
                       yield_stress=400e6, hardening_modulus=117e9 * 0.1e9 / 116.9e9, damage="johnson_cook", d1=0.6)
-        output = self.material("*MAT_003\n" + card(1, "8.93E-6", 117, 0.35, 0.4, 0, 0.0) + card(40, 5),
-                               law="perfectly_plastic", density=8930, youngs_modulus=117e9, poissons_ratio=0.35,
-                               yield_stress=400e6)
+        keys = {"density": 8930, "youngs_modulus": 117e9, "poissons_ratio": 0.35, "yield_stress": 400e6}
+        text = "*MAT_003\n" + card(1, "8.93E-6", 117, 0.35, 0.4, 0, 0.0)
+        # 0.04 per ms is 40 per s.
+        self.material(text + card(0.04, 5), law="isotropic_hardening", hardening_modulus=0,
+                      rate_dependence="cowper_symonds", cowper_symonds_c=40, cowper_symonds_p=5, **keys)
+        output = self.material(text + card(0.04, 0.2), law="perfectly_plastic", **keys)
         self.assertIn("Cowper and Symonds", output)
 
     def test_isotropic_elastic_plastic(self):
@@ -196,10 +199,39 @@ class Materials(InFolder):
         line = "*MAT_PIECEWISE_LINEAR_PLASTICITY\n" + card(1, "7.85E-6", 200, 0.3, 0, 0, 1e21) + card(0, 0, 0, 0)
         keys = {"law": "isotropic_hardening", "density": 7850, "youngs_modulus": 200e9, "poissons_ratio": 0.3,
                 "yield_stress": 300e6, "hardening_modulus": 1e9}
-        output = self.material(line + card(0, 0.1, 0.2) + card(0.3, 0.4, 0.5), **keys)
-        self.assertNotIn("is no line", output)
-        output = self.material(line + card(0, 0.1, 0.2) + card(0.3, 0.45, 0.5), **keys)
-        self.assertIn("50 MPa off", output)
+        self.material(line + card(0, 0.1, 0.2) + card(0.3, 0.4, 0.5), **keys)
+        table = {key: keys[key] for key in ("density", "youngs_modulus", "poissons_ratio")}
+        self.material(line + card(0, 0.1, 0.2) + card(0.3, 0.45, 0.5), law="tabulated_hardening",
+                      hardening_curve=[[0, 300e6], [0.1, 450e6], [0.2, 500e6]], **table)
+        output = self.material(line + card(0, 0.1, 0.2) + card(0.3, 0.45, 0.4), law="tabulated_hardening",
+                               hardening_curve=[[0, 300e6], [0.1, 450e6], [0.2, 450e6]], **table)
+        self.assertIn("falls with strain", output)
+
+    def test_curve_and_rate_of_a_card(self):
+        text = ("*MAT_024\n" + card(1, "7.85E-6", 200, 0.3, 0.2, 0, 1e21) + card(0.04, 5, 9, 0) + card(0) + card(0) +
+                "*DEFINE_CURVE_TITLE\nhardening\n" + card(9, 0, 0.01, 2.0) +
+                "".join("%20s%20s\n" % row for row in (("0", "0.15"), ("5", "0.2"), ("20", "0.22"))))
+        keys = {"density": 7850, "youngs_modulus": 200e9, "poissons_ratio": 0.3, "rate_dependence": "cowper_symonds",
+                "cowper_symonds_c": 40, "cowper_symonds_p": 5}
+        output = self.material(text, law="tabulated_hardening", **keys,
+                               hardening_curve=[[0, 300e6], [0.05, 400e6], [0.2, 440e6]])
+        self.assertIn("Everything in the file was understood", output)
+        output = self.material(text.replace(card(9, 0, 0.01, 2.0), card(8)), law="isotropic_hardening",
+                               yield_stress=200e6, hardening_modulus=0, **keys)
+        self.assertIn("LCSS = 9", output)
+        self.assertIn("DEFINE_CURVE", output)
+
+    def test_curve_of_many_rows_keeps_those_where_it_bends(self):
+        strains = [0.005 * k for k in range(81)]
+        rows = "".join("%20.8g%20.8g\n" % (x, 0.3 + 0.2 * (1 - 2.718281828 ** (-10 * x))) for x in strains)
+        text = ("*MAT_024\n" + card(1, "7.85E-6", 200, 0.3, 0.2, 0, 1e21) + card(0, 0, 9, 0) + "*DEFINE_CURVE\n" +
+                card(9) + rows)
+        case, output, _ = self.imported("m.k", deck(text), *UNITS)
+        curve = np.array(case["body"][0]["material"]["hardening_curve"])
+        self.assertEqual(curve.shape, (32, 2))
+        exact = 300e6 + 200e6 * (1 - np.exp(-10 * np.array(strains)))
+        self.assertLess(abs(np.interp(strains, *curve.T) - exact).max(), 1e6)
+        self.assertRegex(output, r"81 rows: 32 of them are up to 0\.\d+ MPa off")
 
     def test_table_of_a_card_with_an_equation_of_state(self):
         text = ("*MAT_ELASTIC_PLASTIC_HYDRO\n" + card(1, "2.7E-6", 27.0, 0, 0) + card(0, 0.1, 0.2) + "\n" +
