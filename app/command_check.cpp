@@ -160,8 +160,9 @@ void print_supports(CaseSpec const& spec, ParticleSet const& particles) {
 }
 
 void print_loads(CaseSpec const& spec, ParticleSet const& particles) {
-  constexpr std::array<std::string_view, 4> kinds{"traction", "body force", "acceleration", "pressure"};
-  constexpr std::array<std::string_view, 4> units{"Pa", "N/m^3", "m/s^2", "Pa"};
+  constexpr std::array<std::string_view, 5> kinds{"traction", "body force", "acceleration", "pressure",
+                                                  "non-reflecting, background velocity"};
+  constexpr std::array<std::string_view, 5> units{"Pa", "N/m^3", "m/s^2", "Pa", "m/s"};
   for (LoadSpec const& load : spec.loads) {
     auto const kind = static_cast<std::size_t>(load.kind);
     auto const count = loaded_particles(particles, body_named(particles, load.body), load).size();

@@ -308,6 +308,11 @@ def follows(formulation):
     return made, other
 
 
+def radiates(formulation):
+    made = plain(formulation)
+    return made | {"load": [{"body": "block", "face": "+x", "non_reflecting": True}]}, made
+
+
 def bar(**settings):
     def make(formulation):
         made = case(body(formulation, box([0], [8]), initial_velocity=["X"]))
@@ -417,6 +422,7 @@ FEATURES = {
     "tractions": load(face="+x", traction=["1e5", "0"]),
     "pressure": load(face="+x", pressure="1e5"),
     "pressure that follows the deformed face": follows,
+    "patches that let waves leave": radiates,
     "body forces, gravity": load(acceleration=["0", "-9.81"]),
     "loads, velocities and initial values from tables and CSV files":
         load(acceleration=["0", {"table": [[0, 0], ["8 ms", -9.81]]}]),

@@ -39,6 +39,7 @@ bool knows(FormulationInfo const& info, std::string_view what) {
   if (what == "mirrors") return info.mirrors;
   if (what == "parts") return info.parts;
   if (what == "axisymmetric bodies") return info.axisymmetric;
+  if (what == "non-reflecting patches") return info.absorbs;
   if (what == "points from files") return info.off_lattice && !info.outline;
   return what == "rings" || what == "packed clouds" ? info.off_lattice : info.contact || info.can_be_coupled;
 }
@@ -54,6 +55,10 @@ bool has_mirrors(Assembly const& assembly) {
                      [&](MirrorPlane const& mirror) { return !assembly.particles.axisymmetric || mirror.axis != 0; });
 }
 
+bool has_absorbing(Assembly const& assembly) {
+  return std::any_of(assembly.loads.begin(), assembly.loads.end(), [](Load const& l) { return l.absorbs.has_value(); });
+}
+
 /// Rejects features of a case that the formulation does not support.
 void check_abilities(FormulationInfo const& info, Assembly const& assembly) {
   Problems problems;
@@ -61,6 +66,7 @@ void check_abilities(FormulationInfo const& info, Assembly const& assembly) {
   if (!info.mirrors && has_mirrors(assembly)) problems.add({}, refusal(info, "mirrors"));
   if (!info.parts && !assembly.parts.empty()) problems.add({}, refusal(info, "parts"));
   if (!info.axisymmetric && assembly.particles.axisymmetric) problems.add({}, refusal(info, "axisymmetric bodies"));
+  if (!info.absorbs && has_absorbing(assembly)) problems.add({}, refusal(info, "non-reflecting patches"));
   if (!info.off_lattice && has_scattered(assembly.particles)) problems.add({}, refusal(info, "rings"));
   if (!info.contact && !assembly.rigid_shapes.empty()) problems.add({}, refusal(info, "rigid shapes"));
   problems.raise_if_any();

@@ -53,6 +53,7 @@ struct FormulationInfo {
   bool axisymmetric = false;      ///< whether bodies may be axisymmetric
   bool block_laws = false;        ///< whether it can use laws of libraries (materials/block_law.hpp)
   bool conducts = false;          ///< whether heat is conducted, and temperatures may differ at the start
+  bool absorbs = false;           ///< whether patches may be non-reflecting
   bool ranks = true;              ///< whether its bodies may be distributed over ranks
   std::span<FormulaInfo const> formulas = {};  ///< optional formulas
   std::span<RemovedSetting const> removed = {};

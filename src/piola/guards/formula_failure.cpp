@@ -55,7 +55,7 @@ std::optional<Failure> first_failure(ActingFormulas const& acting, ParticleSet c
 
 /// All formulas that act during a run.
 std::vector<ActingFormulas> acting_formulas(CaseSpec const& spec) {
-  constexpr std::array kinds{"traction", "body_force", "acceleration", "pressure"};
+  constexpr std::array kinds{"traction", "body_force", "acceleration", "pressure", "background_velocity"};
   constexpr double always = std::numeric_limits<double>::infinity();
   std::vector<ActingFormulas> all;
   for (LoadSpec const& load : spec.loads)

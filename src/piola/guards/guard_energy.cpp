@@ -128,7 +128,7 @@ class DissipationGuard : public Guard {
     // Energy of deleted particles is no loss of the scheme, nor is intended damping of a case.
     bool const intended = column_of(d, "deleted_particles").value_or(0) > 0;
     double const rubbed = column_of(d, "friction_heat").value_or(0) + column_of(d, "chatter_damping_loss").value_or(0) +
-                          column_of(d, "tie_dissipation").value_or(0);
+                          column_of(d, "tie_dissipation").value_or(0) + column_of(d, "radiated_energy").value_or(0);
     if (!intended) part_[3] = gone - d.stabilisation_loss - d.projection_loss - rubbed;
     part_[4] = d.stabilisation_loss + d.projection_loss + rubbed - gone;
     for (double& p : part_) p = std::isfinite(p) ? std::max(p, 0.0) : 0.0;

@@ -93,16 +93,17 @@ struct SupportSpec {
 
 /// [[load]]: a dead load on the particles that `where` selects.
 struct LoadSpec {
-  enum class Kind { traction, body_force, acceleration, pressure };
+  enum class Kind { traction, body_force, acceleration, pressure, non_reflecting };
   std::string name;  ///< empty: its force is not recorded
   std::string body;
   std::optional<Expression> where;  ///< default all
   Kind kind = Kind::acceleration;
-  std::array<Expression, 3> value;  ///< Pa, N/m^3 or m/s^2, in X, Y, Z, t
-  Face face;                        ///< traction, pressure
+  std::array<Expression, 3> value;  ///< Pa, N/m^3 or m/s^2, in X, Y, Z, t; non-reflecting: background velocity [m/s]
+  Absorption absorption;            ///< non-reflecting
+  Face face;                        ///< traction, pressure, non-reflecting
   ShapeSpec shape;                  ///< of the body
   bool follower = false;            ///< pressure: on the deformed face
-  bool on_face() const { return kind == Kind::traction || kind == Kind::pressure; }
+  bool on_face() const { return kind != Kind::body_force && kind != Kind::acceleration; }
   double until = std::numeric_limits<double>::infinity();  ///< s: gone then
   Places places;
 };

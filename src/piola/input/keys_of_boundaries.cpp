@@ -64,11 +64,25 @@ constexpr std::array load_rows{
              "the start"},
             fills<&LoadSpec::follower>,
             true},
+    LoadKey{
+        {"load", "non_reflecting", flag, "", any_value, "false",
+         "the face or patch lets waves leave the body, with nodal: dashpots with the impedances of the material, in "
+         "addition to tractions and pressures on the same face"}},
+    LoadKey{{"load", "background_velocity", formulas, "m/s", any_value, "at rest",
+             "non_reflecting: the velocity against which the dashpots work, one formula in X, Y, Z, t per direction; "
+             "twice the velocity of a wave that comes in there"}},
+    LoadKey{{"load", "impedance", point, "1", closed(0, 100), "[1, 1]",
+             "non_reflecting: factors on the impedances of pressure and of shear waves, along the normal and across "
+             "it"}},
+    LoadKey{{"load", "angle", quantity, "rad", closed(0, 1.4), "head on",
+             "non_reflecting, in place of impedance: pressure waves at this angle to the normal leave no reflection"}},
     LoadKey{{"load", "face", word, "", any_value, "none",
-             "traction, pressure (required there): a face of a box or an end of a cylinder; outer: the curved surface "
+             "traction, pressure, non_reflecting (required there): a face of a box or an end of a cylinder; outer: the "
+             "curved surface "
              "of a cylinder, ball or disc; inner: that of its hole",
              surface_words}},
-    LoadKey{{"load", "patch", text, "", any_value, "none", "traction, pressure on a solid: a patch of its surface"}},
+    LoadKey{{"load", "patch", text, "", any_value, "none",
+             "traction, pressure, non_reflecting on a solid: a patch of its surface"}},
     LoadKey{{"load", "body_force", formulas, "N/m^3", any_value, "none",
              "force per reference volume, one formula in X, Y, Z, t per direction"}},
     LoadKey{{"load", "acceleration", formulas, "m/s^2", any_value, "none",

@@ -117,14 +117,38 @@ void read_loaded_face(Section const& section, BodyNames const& body, LoadSpec& l
                                                        " (allowed: " + loadable_faces(body.shape) + ")");
 }
 
+void read_absorption(Section const& section, BodyNames const& body, LoadSpec& load) {
+  bool absorbs = true;
+  if (section.read("non_reflecting", absorbs) && !absorbs)
+    section.problems().add(section.place_of("non_reflecting"),
+                           "load.non_reflecting is false (allowed: true) - remove the load");
+  if (auto value = read_vector(section, "background_velocity", body)) load.value = std::move(*value);
+  if (auto const given = section.point("impedance")) {
+    if (given->size() == 2)
+      load.absorption.impedance = {given->front(), given->back()};
+    else
+      section.problems().add(section.place_of("impedance"),
+                             "load.impedance has " + std::to_string(given->size()) +
+                                 " numbers (allowed: two, along the normal and across it) - write [1, 1]");
+  }
+  double angle = 0;
+  if (!section.read("angle", angle)) return;
+  section.refuse("impedance", "and angle exclude each other");
+  load.absorption.angle = angle;
+}
+
 void read_load_value(Section const& section, BodyNames const* body, LoadSpec& load) {
-  constexpr std::array kinds{"traction", "body_force", "acceleration", "pressure"};
+  constexpr std::array kinds{"traction", "body_force", "acceleration", "pressure", "non_reflecting"};
   int given = 0;
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     if (!section.has(kinds[k])) continue;
     ++given;
     load.kind = static_cast<LoadSpec::Kind>(k);
     if (body == nullptr) continue;
+    if (load.kind == LoadSpec::Kind::non_reflecting) {
+      read_absorption(section, *body, load);
+      continue;
+    }
     if (load.kind == LoadSpec::Kind::pressure) {
       if (auto value = section.formula("pressure", body->names)) load.value[0] = std::move(*value);
       continue;
@@ -132,7 +156,7 @@ void read_load_value(Section const& section, BodyNames const* body, LoadSpec& lo
     if (auto value = read_vector(section, kinds[k], *body)) load.value = std::move(*value);
   }
   if (given == 1) return;
-  section.refuse_count("load", given, "traction, pressure, body_force, acceleration");
+  section.refuse_count("load", given, "traction, pressure, body_force, acceleration, non_reflecting");
 }
 
 }  // namespace
@@ -168,8 +192,8 @@ LoadSpec read_load(Section const& section, std::vector<BodyNames> const& bodies)
   load.where = section.formula("where", body != nullptr ? body->names : Names{});
   read_load_value(section, body, load);
   if (!load.on_face()) {
-    section.refuse("face", "is used only by a traction or a pressure");
-    section.refuse("patch", "is used only by a traction or a pressure");
+    section.refuse("face", "is used only by a traction, a pressure or a non-reflecting patch");
+    section.refuse("patch", "is used only by a traction, a pressure or a non-reflecting patch");
   } else if (!section.has("face") && !section.has("patch"))
     section.report_missing("face\" or \"patch", "the part of the surface that the load acts on", "face = \"+x\"");
   else if (body != nullptr)
@@ -178,9 +202,12 @@ LoadSpec read_load(Section const& section, std::vector<BodyNames> const& bodies)
     section.read("follower", load.follower);
   else
     section.refuse("follower", "is used only by a pressure");
+  if (load.kind != LoadSpec::Kind::non_reflecting)
+    for (char const* const key : {"background_velocity", "impedance", "angle"})
+      section.refuse(key, "is used only with non_reflecting");
   section.refuse_unknown();
-  load.places = places_of(
-      section, {"where", "body", "face", "patch", "traction", "body_force", "acceleration", "pressure", "follower"});
+  load.places = places_of(section, {"where", "body", "face", "patch", "traction", "body_force", "acceleration",
+                                    "pressure", "non_reflecting", "background_velocity", "follower"});
   return load;
 }
 

@@ -66,6 +66,10 @@ class BodyBoundary {
   void add_impulse(std::size_t support, Point const& x, Point const& impulse) {
     supports_.impulses()[support].add(x, impulse);
   }
+  /// Adds an impulse [N s] of a load that the body treats itself.
+  void add_load_impulse(std::size_t load, Point const& x, Point const& impulse) {
+    loads_.impulses()[load].add(x, impulse);
+  }
   /// Multiplies the velocities in slots before `last` by `factor`, except along the directions held in the last step.
   void damp(FieldRef const& v, Index last, double factor) const { supports_.damp(v, first_kept_, last, factor); }
   /// The next time after `time` at which a support or a load ends; infinity if there is none.

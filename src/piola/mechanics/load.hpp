@@ -10,6 +10,12 @@
 
 namespace piola {
 
+/// Dashpots on a non-reflecting patch, in units of the impedances of the material.
+struct Absorption {
+  std::array<double, 2> impedance{1, 1};  ///< along the normal: rho c_p; across it: rho c_s
+  std::optional<double> angle = {};       ///< to the normal, of pressure waves that leave no reflection, instead [rad]
+};
+
 /// A dead load: accelerates particle k by value(X, t) * factor[k].
 struct Load {
   std::vector<std::int64_t> particles;  ///< ids
@@ -19,12 +25,13 @@ struct Load {
   /// Outward unit normal of the loaded face in the reference configuration, if the load is a traction.
   std::optional<std::array<double, 3>> normal = {};
   std::vector<std::array<double, 3>> normals = {};  ///< as `normal`, per particle, for curved faces
-  int patch = -1;                 ///< number of the loaded patch of the surface, see Outline::patches; -1: none
-  bool whole_patch = false;       ///< the load acts on all of it
-  bool pressure = false;          ///< the value's first component is a pressure [Pa] on that face
-  bool follows = false;           ///< follower load: a pressure on the deformed face, along its
-                                  ///< current normal
-  std::string name = {};          ///< empty: its force is not recorded
+  int patch = -1;            ///< number of the loaded patch of the surface, see Outline::patches; -1: none
+  bool whole_patch = false;  ///< the load acts on all of it
+  bool pressure = false;     ///< the value's first component is a pressure [Pa] on that face
+  bool follows = false;      ///< follower load: a pressure on the deformed face, along its
+                             ///< current normal
+  std::optional<Absorption> absorbs = {};  ///< a non-reflecting patch: `value` is the background velocity [m/s]
+  std::string name = {};                   ///< empty: its force is not recorded
   std::array<double, 3> about{};  ///< reference point of its moment: the mean position of its particles at the start
                                   ///< [m]
 

@@ -4,6 +4,7 @@
 #include "piola/mechanics/prescribed.hpp"
 #include "piola/model/case_particles.hpp"
 #include "piola/model/region_checks.hpp"
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -172,7 +173,7 @@ bool check_support(SupportSpec const& support, ParticleSet const& particles, Bod
 }
 
 void check_load(LoadSpec const& load, ParticleSet const& particles, Body const& body, Problems& problems) {
-  constexpr std::array keys{"traction", "body_force", "acceleration", "pressure"};
+  constexpr std::array keys{"traction", "body_force", "acceleration", "pressure", "background_velocity"};
   Place const place = place_of(load.places, "where");
   if (load.where && !check_where(*load.where, "load.where", place, particles, body, problems)) return;
   std::vector<std::int64_t> const ids = loaded_particles(particles, body, load);
@@ -192,6 +193,23 @@ void check_load(LoadSpec const& load, ParticleSet const& particles, Body const& 
   }
   for (std::size_t d = 0; d < static_cast<std::size_t>(particles.dimension); ++d) {
     check.finite(load.value[d], "load." + key + "[" + std::to_string(d) + "]", place_of(load.places, key), ids);
+  }
+}
+
+/// A support that holds all particles of a non-reflecting patch leaves it nothing to do.
+void check_absorbing(CaseSpec const& spec, LoadSpec const& load, ParticleSet const& particles, Body const& body,
+                     Problems& problems) {
+  if (load.kind != LoadSpec::Kind::non_reflecting) return;
+  for (SupportSpec const& support : spec.supports) {
+    if (support.body != load.body) continue;
+    std::set<std::int64_t> held;
+    for (auto const id : supported_particles(particles, body, support)) held.insert(id);
+    auto const ids = loaded_particles(particles, body, load);
+    if (!std::all_of(ids.begin(), ids.end(), [&](auto id) { return held.contains(id); })) continue;
+    problems.add(place_of(load.places, "face"),
+                 "a support holds all particles of the non-reflecting face " +
+                     in_quotes(face_text(load.shape, load.face)) + " of body " + in_quotes(body.name) +
+                     " (allowed: one of the two; static support by a traction or pressure) - remove one");
   }
 }
 
@@ -232,7 +250,10 @@ void check_boundaries(CaseSpec const& spec, ParticleSet const& particles, Proble
       holds.push_back(hold_of(spec.supports[s], s, particles, *body));
   }
   for (LoadSpec const& load : spec.loads) {
-    if (Body const* const body = body_named(particles, load.body)) check_load(load, particles, *body, problems);
+    if (Body const* const body = body_named(particles, load.body)) {
+      check_load(load, particles, *body, problems);
+      check_absorbing(spec, load, particles, *body, problems);
+    }
   }
   for (std::size_t m = 0; m < spec.mirrors.size(); ++m) {
     Body const* const body = body_named(particles, spec.mirrors[m].body);

@@ -39,6 +39,18 @@ void open_cracks(CaseSpec const& spec, ParticleSet& particles, Problems& problem
   }
 }
 
+namespace {
+
+void check_absorption(CaseSpec const& spec, Problems& problems) {
+  for (LoadSpec const& load : spec.loads) {
+    auto const info = formulation_of(spec, load.body);
+    if (info && !info->absorbs && load.kind == LoadSpec::Kind::non_reflecting)
+      problems.add(place_of(load.places, "non_reflecting"), refusal(*info, "non-reflecting patches"));
+  }
+}
+
+}  // namespace
+
 void check_abilities(CaseSpec const& spec, Problems& problems) {
   check_contact(spec, problems);
   check_minimisation(spec, problems);
@@ -46,6 +58,7 @@ void check_abilities(CaseSpec const& spec, Problems& problems) {
     auto const info = formulation_of(spec, crack.body);
     if (info && !info->cracks) problems.add(place_of(crack.places, ""), refusal(*info, "cracks"));
   }
+  check_absorption(spec, problems);
   for (SupportSpec const& support : spec.supports) {
     auto const info = formulation_of(spec, support.body);
     if (info && support.hold == SupportSpec::Hold::surface && !holds_surface(spec, support))

@@ -71,7 +71,7 @@ std::string odd_face_load(double size, BodyProperties const& body) {
 
 void compare_load(CaseSpec const& spec, LoadSpec const& load, ParticleSet const& particles, BodyProperties const& body,
                   Problems& slips) {
-  constexpr std::array keys{"traction", "body_force", "acceleration", "pressure"};
+  constexpr std::array keys{"traction", "body_force", "acceleration", "pressure", "background_velocity"};
   Body const& loaded = *body_named(particles, load.body);
   auto const looked = look_at_vector(load.value, particles, loaded_particles(particles, loaded, load),
                                      std::min(spec.run.end, load.until));
@@ -84,8 +84,10 @@ void compare_load(CaseSpec const& spec, LoadSpec const& load, ParticleSet const&
   if (!(size > 0)) return;
   double const length = *std::max_element(body.size.begin(), body.size.end());
   double const density = load.kind == LoadSpec::Kind::acceleration ? density_of_body(body) : 1;
-  note(load.on_face() ? odd_face_load(size, body)
-                      : implausible(plausible_range("weight"), size * density * length, body.modulus, "Pa"));
+  note(load.kind == LoadSpec::Kind::non_reflecting
+           ? implausible(plausible_range("driven_speed"), size, body.p_wave, "m/s")
+       : load.on_face() ? odd_face_load(size, body)
+                        : implausible(plausible_range("weight"), size * density * length, body.modulus, "Pa"));
 }
 
 /// Compares the speed of a driven support or rigid shape with the wave speed.

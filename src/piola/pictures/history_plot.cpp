@@ -53,8 +53,9 @@ std::vector<std::string> ledger(HistoryTable const& table) {
   for (HistoryColumn const& column : table.columns) {
     bool const whole = column.name.find('.') == std::string::npos;
     bool const booked = column.name == "external_work" || column.name == "plastic_work" ||
-                        column.name == "contact_energy" || column.name.ends_with("_loss") ||
-                        column.name.ends_with("_heat") || column.name.ends_with("_dissipation");
+                        column.name == "contact_energy" || column.name == "radiated_energy" ||
+                        column.name.ends_with("_loss") || column.name.ends_with("_heat") ||
+                        column.name.ends_with("_dissipation");
     if (!whole || !booked) continue;
     auto const values = table.values(column.name);
     if (std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v) && std::abs(v) > 0; }))

@@ -140,6 +140,7 @@ Load load_of(LoadSpec const& spec, CaseSpec const& from, ParticleSet const& part
             .pressure = spec.kind == LoadSpec::Kind::pressure,
             .follows = spec.follower,
             .name = spec.name};
+  if (spec.kind == LoadSpec::Kind::non_reflecting) load.absorbs = spec.absorption;
   load.about = middle_of(load.particles, particles);
   if (!spec.on_face()) {
     bool const force = spec.kind == LoadSpec::Kind::body_force;

@@ -19,12 +19,15 @@ double largest(std::vector<double> const& values) {
   return most;
 }
 
-/// Largest rise (sign 1) or fall (sign -1) of the energy that no support or load brought, by the largest energy.
+/// Largest rise (sign 1) or fall (sign -1) of the energy that no support or load brought and that did not leave through
+/// a non-reflecting patch, by the largest energy.
 double largest_rise(HistoryTable const& history, double sign) {
   auto const energy = history.values("total_energy"), work = history.values("external_work");
+  std::vector<double> radiated(energy.size(), 0);
+  if (history.find("radiated_energy")) radiated = history.values("radiated_energy");
   double rise = 0, lowest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < energy.size(); ++k) {
-    double const own = sign * (energy[k] - work[k]);
+    double const own = sign * (energy[k] - work[k] + radiated[k]);
     if (!std::isfinite(own)) continue;
     lowest = std::min(lowest, own);
     rise = std::max(rise, own - lowest);

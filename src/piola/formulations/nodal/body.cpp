@@ -167,16 +167,20 @@ void NodalBody::make_boundary(Assembly const& assembly, std::size_t body) {
   auto& r = reference_;
   // Masses of all particles on all ranks for contact, also of pieces, or if every rank solves for held surface places.
   bool const in_contact = assembly.coupled || options_.failure;
-  if (shared() && (in_contact || !r.held.empty())) DistributedSlots{slots(), particles()}.complete(r.mass, 1);
+  if (shared() && (in_contact || !r.held.empty() || !r.absorbing.empty()))
+    DistributedSlots{slots(), particles()}.complete(r.mass, 1);
   if (shared())
     for (LazyZeroArray<double>& areas : r.face_areas) DistributedSlots{slots(), particles()}.complete(areas, 1);
   std::optional<Range> own;
   if (shared()) own = state_.slots;
-  boundary_.emplace(assembly, body, Boundary::BodyInput{order_, r.mass, r.parts, r.centroid, r.held, own});
+  set_drags(r.absorbing, assembly.loads, state_.dimension,
+            [&](Index slot) -> Constants const& { return materials_.of(slot).constants; });
+  boundary_.emplace(assembly, body, Boundary::BodyInput{order_, r.mass, r.parts, r.centroid, r.held, r.absorbing, own});
   boundary_->attach(state_);
   if (!in_contact) LazyZeroArray<double>().swap(r.mass);
   LazyZeroArray<double>().swap(r.centroid);
   r.parts.clear();
+  r.absorbing.clear();
 }
 
 void NodalBody::make_pressure(Backend const& backend) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "piola/formulations/nodal/boundary_conditions.hpp"
 #include "piola/base/contracts.hpp"
+#include "piola/base/errors.hpp"
 #include "piola/domain/communicator.hpp"
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace piola::nodal {
 namespace {
@@ -24,6 +26,12 @@ Boundary::Boundary(Assembly const& assembly, std::size_t body, BodyInput const& 
       D_(assembly.particles.dimension),
       driven_(D_, assembly.supports, assembly.loads, false),
       surface_(D_, assembly.supports, of_body.held, of_body.mass, positions(assembly, of_body)),
+      absorbing_(
+          D_,
+          {assembly.loads, of_body.absorbing, [&](Index slot) { return of_body.mass[static_cast<std::size_t>(slot)]; },
+           [&](Index slot) {
+             return assembly.particles.X[static_cast<std::size_t>(of_body.order.id[static_cast<std::size_t>(slot)])];
+           }}),
       own_(of_body.own) {
   PIOLA_EXPECTS(body < assembly.particles.bodies.size());
   std::vector<Index> slot_of(static_cast<std::size_t>(body_.last - body_.first));
@@ -37,15 +45,27 @@ Boundary::Boundary(Assembly const& assembly, std::size_t body, BodyInput const& 
         return BodyBoundary::PrescribedParticle{slot, X, of_body.mass[static_cast<std::size_t>(slot)], X};
       });
   take_loads(assembly, of_body, slot_of);
+  refuse_held_beside_absorbing();
 }
 
-/// Supports that hold the surface are solved for on every rank, including all held particles near it.
+void Boundary::refuse_held_beside_absorbing() const {
+  for (Index const slot : absorbing_.slots())
+    if (surface_.reaches(slot))
+      throw InputError(fmt::format(
+          "body '{}': a support holds the surface beside a non-reflecting patch, where both act on the same particles "
+          "(allowed: hold = \"particles\" there) - change hold",
+          body_.name));
+}
+
+/// Supports that hold the surface, and non-reflecting patches, are solved for on every rank, including all held
+/// particles near them.
 void Boundary::distribute(Range own) {
-  if (surface_.empty())
+  if (surface_.empty() && absorbing_.empty())
     driven_.keep(own);
   else
     driven_.share(own);
   surface_.share(own);
+  absorbing_.share(own);
 }
 
 /// Acceleration per unit of the load's value, per slot; zero where it does not act.
@@ -70,6 +90,7 @@ LazyZeroArray<double> Boundary::factors(Load const& load, std::size_t number, Bo
 void Boundary::take_loads(Assembly const& assembly, BodyInput const& of_body, std::vector<Index> const& slot_of) {
   for (std::size_t number = 0; number < assembly.loads.size(); ++number) {
     Load const& load = assembly.loads[number];
+    if (load.absorbs) continue;
     auto const factor = factors(load, number, of_body, slot_of);
     for (auto slot = static_cast<std::size_t>(of_body.slots().first);
          slot < static_cast<std::size_t>(of_body.slots().last); ++slot) {
@@ -103,6 +124,12 @@ void Boundary::begin_step(BodyState& state, double time, double dt) {
   PIOLA_EXPECTS(dt >= 0);
   bool const changed = driven_.begin_step(state.x, time, dt);
   surface_.begin_step(state.x, driven_.held(), changed, time, dt);
+  absorbing_.begin_step(driven_.held(),
+                        {state.boundary.mirrored, static_cast<std::size_t>(state.boundary.mirrored_count)}, time, dt);
+  state.boundary.absorbing = absorbing_.empty() ? nullptr : &absorbing_;
+  state.boundary.absorb = [](AbsorbingSurface& surface, BodyState& body, double half, bool at_end) {
+    surface.absorb({body.x, body.v, body.a}, half, at_end);
+  };
   state.boundary.surface = surface_.empty() ? nullptr : &surface_;
   state.boundary.kick_surface = [](SurfaceConstraint& surface, BodyState& body, bool first, double step) {
     if (first)
@@ -122,6 +149,7 @@ void Boundary::begin_step(BodyState& state, double time, double dt) {
 void Boundary::end_step(BodyState& state) {
   driven_.end_step(state.x, work_);
   surface_.end_step(state.x, work_);
+  absorbing_.end_step(driven_, work_);
   driven_.remove_ended(state.a);
 }
 

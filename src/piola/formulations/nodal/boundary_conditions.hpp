@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "piola/formulations/assembly.hpp"
+#include "piola/formulations/nodal/absorbing_surface.hpp"
 #include "piola/formulations/nodal/set_up.hpp"
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/mechanics/body_boundary_conditions.hpp"
@@ -15,14 +16,15 @@ namespace piola::nodal {
 /// surface places that supports hold. Theory: docs/theory/boundaries.md, docs/theory/nodal.md.
 class Boundary {
  public:
-  /// Data of a body: masses per slot [kg], for each load on a face its part per slot, centroids of cells, and the
-  /// surface places that supports hold.
+  /// Data of a body: masses per slot on this side of mirror planes [kg], for each load on a face its part per slot,
+  /// centroids of cells, the surface places that supports hold, and the parts of non-reflecting patches.
   struct BodyInput {
     SlotOrder const& order;
     LazyZeroArray<double> const& mass;
     std::vector<LazyZeroArray<FacePart>> const& parts;
     LazyZeroArray<double> const& centroid;
     std::vector<ConstrainedFacet> const& held;
+    std::vector<AbsorbingFacet> const& absorbing;
     std::optional<Range> own = std::nullopt;  ///< local slots; empty: all
     Range slots() const { return own.value_or(Range{0, order.slots()}); }
   };
@@ -60,14 +62,24 @@ class Boundary {
   /// sum m a^2 of the part of accelerations that supports remove [N m/s2]: by all surface places, and along
   /// directions of local particles.
   double square_of_surface(BodyState const& state) const { return surface_.square_of_held(state.a); }
+  /// sum m a^2 of the part of accelerations that non-reflecting patches remove, by all of them [N m/s2].
+  double square_of_absorbed(BodyState const& state) const {
+    return absorbing_.square_of_absorbed({state.x, state.v, state.a});
+  }
   exec::ReproducibleSum square_of_held(BodyState const& state) const;
   std::size_t bytes() const { return surface_.bytes(); }
+
+  /// Energy that has left through non-reflecting patches since the start [J].
+  double radiated_energy() const { return absorbing_.radiated(); }
+  void set_radiated_energy(double energy) { absorbing_.set_radiated(energy); }
+  bool absorbs() const { return !absorbing_.empty(); }
 
   DeferredGlobalSum& external_work() { return work_; }  ///< of loads and driven supports since the start [J]
   DeferredGlobalSum const& external_work() const { return work_; }
 
  private:
   void take_loads(Assembly const& assembly, BodyInput const& of_body, std::vector<Index> const& slot_of);
+  void refuse_held_beside_absorbing() const;
   void distribute(Range own);
   LazyZeroArray<double> factors(Load const& load, std::size_t number, BodyInput const& of_body,
                                 std::vector<Index> const& slot_of) const;
@@ -76,6 +88,7 @@ class Boundary {
   int D_;
   BodyBoundary driven_;
   SurfaceConstraint surface_;
+  AbsorbingSurface absorbing_;
   std::vector<double> centroid_;  ///< of the cells of loaded particles, relative to the particles [m]
   std::vector<double> radius_;    ///< axisymmetric bodies: see BoundaryState::loaded_radius
   DeferredGlobalSum work_;

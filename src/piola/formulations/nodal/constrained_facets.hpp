@@ -15,6 +15,11 @@ std::vector<ConstrainedFacet> constrained_facets(SetUp const& from, LocalFits<D>
                                                  std::vector<SurfacePatch> const& patches,
                                                  std::array<double, 3> const& h);
 
+/// Facets of the loads that absorb waves, as the places of supports, with areas whose sum is exact.
+template <int D>
+std::vector<AbsorbingFacet> absorbing_facets(SetUp const& from, LocalFits<D> const& fits,
+                                             std::vector<SurfacePatch> const& patches, std::array<double, 3> const& h);
+
 extern template std::vector<ConstrainedFacet> constrained_facets<1>(SetUp const&, LocalFits<1> const&,
                                                                     std::vector<SurfacePatch> const&,
                                                                     std::array<double, 3> const&);
@@ -24,5 +29,14 @@ extern template std::vector<ConstrainedFacet> constrained_facets<2>(SetUp const&
 extern template std::vector<ConstrainedFacet> constrained_facets<3>(SetUp const&, LocalFits<3> const&,
                                                                     std::vector<SurfacePatch> const&,
                                                                     std::array<double, 3> const&);
+extern template std::vector<AbsorbingFacet> absorbing_facets<1>(SetUp const&, LocalFits<1> const&,
+                                                                std::vector<SurfacePatch> const&,
+                                                                std::array<double, 3> const&);
+extern template std::vector<AbsorbingFacet> absorbing_facets<2>(SetUp const&, LocalFits<2> const&,
+                                                                std::vector<SurfacePatch> const&,
+                                                                std::array<double, 3> const&);
+extern template std::vector<AbsorbingFacet> absorbing_facets<3>(SetUp const&, LocalFits<3> const&,
+                                                                std::vector<SurfacePatch> const&,
+                                                                std::array<double, 3> const&);
 
 }  // namespace piola::nodal

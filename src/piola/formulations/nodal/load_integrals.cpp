@@ -8,9 +8,32 @@
 #include <fmt/format.h>
 
 namespace piola::nodal {
-namespace {
 
 using Point = std::array<double, 3>;
+
+WholeArea exact_area(SetUp const& from, Load const& load) {
+  WholeArea sum;
+  for (std::size_t k = 0; k < load.particles.size(); ++k) {
+    auto const id = static_cast<std::size_t>(load.particles[k]);
+    if (load.particles[k] < from.body.first || load.particles[k] >= from.body.last) continue;
+    double const area = load.factor[k] * from.rho0[part_of(from.set, id)] * from.set.volume[id];
+    sum.size += area;
+    for (std::size_t c = 0; c < 3; ++c) sum.vector[c] += area * load.normal_of(k)[c];
+  }
+  return sum;
+}
+
+template <int D>
+Point unit_areas(SetUp const& from, std::array<double, 3> const& h) {
+  Point area{1, 1, 1};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t c = 0; c < static_cast<std::size_t>(D); ++c) area[axis] *= c == axis ? 1 : h[c];
+  if (from.set.axisymmetric)
+    for (double& size : area) size *= circle(h[0]);
+  return area;
+}
+
+namespace {
 
 using Moments = std::array<double, 10>;
 
@@ -46,24 +69,6 @@ LazyZeroArray<FacePart> scalar_parts(LoadedFace<D> const& face, SurfaceIntegrals
   LazyZeroArray<FacePart> parts(share.size());
   surface.for_each_local([&](std::size_t b) { parts[b] = {share[b], normal.value_or(Point{})}; });
   return parts;
-}
-
-/// Sum of the areas of a face, and of areas times normals [m^(D-1)].
-struct WholeArea {
-  double size = 0;
-  Point vector{};
-};
-
-WholeArea exact_area(SetUp const& from, Load const& load) {
-  WholeArea sum;
-  for (std::size_t k = 0; k < load.particles.size(); ++k) {
-    auto const id = static_cast<std::size_t>(load.particles[k]);
-    if (load.particles[k] < from.body.first || load.particles[k] >= from.body.last) continue;
-    double const area = load.factor[k] * from.rho0[part_of(from.set, id)] * from.set.volume[id];
-    sum.size += area;
-    for (std::size_t c = 0; c < 3; ++c) sum.vector[c] += area * load.normal_of(k)[c];
-  }
-  return sum;
 }
 
 /// Area in the body itself, without its images. Collective on a distributed body.
@@ -107,17 +112,6 @@ void check_area(SetUp const& from, Load const& load, WholeArea const& found, Laz
   checks.push_back({load.name + ".area_error", error, warning});
 }
 
-/// Area of a patch of size one in spacings h, by its axis [m^(D-1)].
-template <int D>
-Point unit_areas(SetUp const& from, std::array<double, 3> const& h) {
-  Point area{1, 1, 1};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::size_t c = 0; c < static_cast<std::size_t>(D); ++c) area[axis] *= c == axis ? 1 : h[c];
-  if (from.set.axisymmetric)
-    for (double& size : area) size *= circle(h[0]);
-  return area;
-}
-
 }  // namespace
 
 template <int D>
@@ -141,7 +135,7 @@ std::vector<LazyZeroArray<FacePart>> load_integrals(SetUp const& from, LocalFits
   Point const area = unit_areas<D>(from, of.h);
   for (auto const& load : from.loads) {
     parts.emplace_back();
-    if (!load.on_face()) continue;
+    if (!load.on_face() || load.absorbs) continue;
     LoadedFace<D> const face(from, fits, surface.patches(), load);
     bool const by_area = load.normal || !load.pressure;
     parts.back() = by_area ? scalar_parts<D>(face, surface, area, load.normal) : vector_parts<D>(face, surface, area);
@@ -150,6 +144,9 @@ std::vector<LazyZeroArray<FacePart>> load_integrals(SetUp const& from, LocalFits
   return parts;
 }
 
+template Point unit_areas<1>(SetUp const&, Point const&);
+template Point unit_areas<2>(SetUp const&, Point const&);
+template Point unit_areas<3>(SetUp const&, Point const&);
 template std::vector<LazyZeroArray<double>> face_areas<1>(SetUp const&, SurfaceIntegrals<1> const&,
                                                           std::array<double, 3> const&);
 template std::vector<LazyZeroArray<double>> face_areas<2>(SetUp const&, SurfaceIntegrals<2> const&,

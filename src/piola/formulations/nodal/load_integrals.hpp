@@ -5,6 +5,19 @@
 
 namespace piola::nodal {
 
+/// Sum of the areas of a face, and of areas times normals [m^(D-1)].
+struct WholeArea {
+  double size = 0;
+  std::array<double, 3> vector{};
+};
+
+/// Exact area of a load on the body.
+WholeArea exact_area(SetUp const& from, Load const& load);
+
+/// Area of a patch of size one in spacings h, by its axis [m^(D-1)].
+template <int D>
+std::array<double, 3> unit_areas(SetUp const& from, std::array<double, 3> const& h);
+
 struct FacePartsOf {
   std::array<double, 3> const& h;   ///< spacings [m]
   std::vector<SetUpCheck>& checks;  ///< receives the computed area of each load, with the exact one

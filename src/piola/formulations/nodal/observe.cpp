@@ -91,6 +91,7 @@ void add_diagnostics(NodalBody const& body, NodalDiagnosticsSum& o) {
   o.totals.damping_loss += body.damping_loss();
   o.totals.stabilisation_loss += body.viscous_loss();
   o.totals.external_work += body.boundary().external_work().over_ranks();
+  o.radiated_energy += body.boundary().radiated_energy();
   add_oscillation(body, smooth, o);
   add_oscillation(body, of_cells, o.of_cells);
 }
@@ -114,7 +115,8 @@ Diagnostics finish(NodalDiagnosticsSum o) {
             {"failed_particles", o.failure.value(0)},
             {"fracture_energy", o.failure.value(1)},
             {"crack_area", o.failure.value(2)},
-            {"eulerian_particles", o.failure.value(3)}};
+            {"eulerian_particles", o.failure.value(3)},
+            {"radiated_energy", o.radiated_energy}};
   return d;
 }
 

@@ -11,6 +11,7 @@ namespace piola::nodal {
 struct NodalDiagnosticsSum : DiagnosticsSum {
   double least_jacobian = std::numeric_limits<double>::infinity();  ///< at a point of a cell
   double repeated_steps = 0;
+  double radiated_energy = 0;              ///< through non-reflecting patches [J], on all ranks alike
   exec::ReproducibleSums<1> plastic_work;  ///< [J]
   exec::ReproducibleSums<4>
       failure;              ///< failed cells; energy lost by softening [J]; area of cracks [m2]; Eulerian cells

@@ -70,7 +70,7 @@ constexpr std::array diagnostics{
     DiagnosticInfo{"cell_pressure_oscillation", "1"}, DiagnosticInfo{"plastic_work", "J"},
     DiagnosticInfo{"internal_energy", "J"},           DiagnosticInfo{"failed_particles", "1"},
     DiagnosticInfo{"fracture_energy", "J"},           DiagnosticInfo{"crack_area", "m2"},
-    DiagnosticInfo{"eulerian_particles", "1"}};
+    DiagnosticInfo{"eulerian_particles", "1"},        DiagnosticInfo{"radiated_energy", "J"}};
 
 }  // namespace
 
@@ -90,6 +90,7 @@ FormulationInfo info() {
   info.conducts = true;
   info.axisymmetric = true;
   info.block_laws = true;
+  info.absorbs = true;
   info.outline = true;  // cells end at the surface, and mirror planes are there
   return info;
 }

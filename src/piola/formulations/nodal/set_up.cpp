@@ -129,6 +129,7 @@ void use_fits(SetUp const& from, ScaledBody& scaled, LocalFits<D> const& fits, F
   bool const is_box = !from.body.outline.inside;
   if (from.contact && is_box) r.face_areas = face_areas<D>(from, surface, scaled.h);
   r.held = constrained_facets<D>(from, fits, scaled.patches, scaled.h);
+  r.absorbing = absorbing_facets<D>(from, fits, scaled.patches, scaled.h);
 }
 
 template <int D>
@@ -175,11 +176,14 @@ void make(SetUp const& from, Reference& r) {
 }  // namespace
 
 bool SetUp::is_shared() const {
-  auto const on_body = [&](Support const& support) {
-    return support.on_surface() && std::any_of(support.particles.begin(), support.particles.end(),
-                                               [&](auto id) { return id >= body.first && id < body.last; });
+  auto const on_body = [&](auto const& of) {
+    return std::any_of(of.particles.begin(), of.particles.end(),
+                       [&](auto id) { return id >= body.first && id < body.last; });
   };
-  return own && images == nullptr && std::none_of(supports.begin(), supports.end(), on_body);
+  auto const holds = [&](Support const& support) { return support.on_surface() && on_body(support); };
+  auto const absorbs = [&](Load const& load) { return load.absorbs && on_body(load); };
+  return own && images == nullptr && std::none_of(supports.begin(), supports.end(), holds) &&
+         std::none_of(loads.begin(), loads.end(), absorbs);
 }
 
 void make_reference(SetUp const& from, Reference& to) {

@@ -6,6 +6,7 @@
 #include "piola/formulations/assembly.hpp"
 #include "piola/formulations/common/mirror_images.hpp"
 #include "piola/formulations/common/set_up_checks.hpp"
+#include "piola/formulations/nodal/absorbing_surface.hpp"
 #include "piola/formulations/nodal/lattice_layout.hpp"
 #include "piola/formulations/nodal/state.hpp"
 #include "piola/mechanics/surface_constraint.hpp"
@@ -41,8 +42,8 @@ struct SetUp {
   bool failure = false;                     ///< cells may fail
   bool conducts = false;                    ///< heat is conducted
 
-  /// Whether the set-up is distributed over ranks. With mirror planes, or surface places that supports hold, each rank
-  /// sets up the whole body.
+  /// Whether the set-up is distributed over ranks. With mirror planes, surface places that supports hold, or
+  /// non-reflecting patches, each rank sets up the whole body.
   bool is_shared() const;
   Range own_slots() const { return own.value_or(Range{0, order.slots()}); }
 };
@@ -112,6 +113,7 @@ struct Reference {
   std::vector<LazyZeroArray<FacePart>> parts;     ///< per load on a face, per slot; empty for other loads
   std::vector<LazyZeroArray<double>> face_areas;  ///< of a box in contact, see face_areas(); empty: none
   std::vector<ConstrainedFacet> held;             ///< parts of the surface that supports hold
+  std::vector<AbsorbingFacet> absorbing;          ///< parts of non-reflecting patches
   LazyZeroArray<std::int64_t> begin;  ///< lists, see GradientList; of a lattice without weights and gradients
   std::vector<Index> neighbour;
   std::vector<double> weight, gradient, reaction;

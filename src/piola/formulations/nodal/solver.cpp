@@ -269,6 +269,8 @@ void Solver::save(StateWriter& writer) const {
     if (!descents_.empty()) writer.put(fmt::format("body{}_direction", k), descents_[k].state());
     writer.put(fmt::format("body{}_energy_books", k),
                std::array{body.boundary().external_work().over_ranks(), body.damping_loss()});
+    if (body.boundary().absorbs())
+      writer.put(fmt::format("body{}_radiated_energy", k), std::array{body.boundary().radiated_energy()});
   }
   writer.put("actions", actions_.over_ranks(bodies_).state());
   writer.put("time", std::array{time_, repeated_});
@@ -287,6 +289,10 @@ void Solver::load(StateReader& reader) {
     reader.get(fmt::format("body{}_energy_books", k), energy_totals);
     body.boundary().external_work().set(energy_totals[0]);
     body.set_damping_loss(energy_totals[1]);
+    if (!body.boundary().absorbs()) continue;
+    std::array<double, 1> radiated{};
+    reader.get(fmt::format("body{}_radiated_energy", k), radiated);
+    body.boundary().set_radiated_energy(radiated[0]);
   }
   load_part(reader, "actions", actions_);
   std::array<double, 2> clock{};

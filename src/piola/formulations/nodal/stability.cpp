@@ -163,7 +163,8 @@ void StabilityMonitor::look_at_unrest(double dt) {
   });
   if (body_.shared()) comm::allreduce_sum(sums);
   auto const& of = sums.of_particles;
-  double const held = body_.boundary().square_of_surface(s) + sums.held.value();
+  double const held =
+      body_.boundary().square_of_surface(s) + sums.held.value() + body_.boundary().square_of_absorbed(s);
   double const now = 0.125 * (std::abs(of.value(0)) / (dt * dt) + of.value(1) - held);
   energy_oscillation_ = std::max(energy_oscillation_, now);
   recent_max_ = std::max(recent_max_, now);

@@ -63,6 +63,7 @@ struct MirroredParticle {
 };
 
 struct BodyState;
+class AbsorbingSurface;
 class ImplicitPressure;
 
 /// Neighbours of a cloud, a list per particle: the weight s, and the gradients of a pair in both directions.
@@ -87,6 +88,8 @@ struct BoundaryState {
   Index mirrored_count = 0;
   SurfaceConstraint* surface = nullptr;  ///< surface places that supports hold; nullptr: none
   void (*kick_surface)(SurfaceConstraint& surface, BodyState& body, bool first, double dt) = nullptr;
+  AbsorbingSurface* absorbing = nullptr;  ///< dashpots on non-reflecting patches; nullptr: none
+  void (*absorb)(AbsorbingSurface& surface, BodyState& body, double half, bool at_end) = nullptr;
   bool follows = false;  ///< whether some load is a follower load
 };
 

@@ -18,6 +18,7 @@ class Step {
 
   /// From t^n to t^(n+1) = t^n + dt. With dt = 0 only the accelerations are computed.
   void operator()(double dt) {
+    absorb(dt, false);
     if (b_.boundary.follows) turn_loads(false);
     if (dt > 0) drive(dt);  // v^(n+1/2) in prescribed directions
     bool const implicit = b_.implicit_pressure != nullptr && dt > 0;
@@ -35,6 +36,7 @@ class Step {
     exec::for_each_item(b_.boundary.mirrored_count, StayOnPlanes<D>{b_.boundary.mirrored, write(b_.a)});
     exec::for_each(b_.slots, Kick<D>{dt, read(b_.a), read(b_.v), write(b_.v)});
     if (dt > 0) arrive(dt);
+    absorb(dt, true);
   }
 
   /// Computes a of the internal forces at x: -dPi/dx over the masses, and of viscous forces if `dt` [s], the time since
@@ -142,6 +144,9 @@ class Step {
                                      of_motion(), read_reference(b_.k), read(b_.offset), read(b_.x)});
   }
 
+  void absorb(double dt, bool at_end) {
+    if (b_.boundary.absorbing != nullptr && dt > 0) b_.boundary.absorb(*b_.boundary.absorbing, b_, 0.5 * dt, at_end);
+  }
   void drive(double dt) {
     exec::for_each_item(b_.boundary.held_count,
                         DriveDirections<D>{dt, b_.boundary.held, read(b_.v), read(b_.a), write(b_.a)});
