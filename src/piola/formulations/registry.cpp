@@ -39,7 +39,7 @@ bool knows(FormulationInfo const& info, std::string_view what) {
   if (what == "mirrors") return info.mirrors;
   if (what == "parts") return info.parts;
   if (what == "axisymmetric bodies") return info.axisymmetric;
-  if (what == "non-reflecting patches") return info.absorbs;
+  if (what == "non-reflecting faces") return info.absorbs;
   if (what == "points from files") return info.off_lattice && !info.outline;
   return what == "rings" || what == "packed clouds" ? info.off_lattice : info.contact || info.can_be_coupled;
 }
@@ -66,7 +66,7 @@ void check_abilities(FormulationInfo const& info, Assembly const& assembly) {
   if (!info.mirrors && has_mirrors(assembly)) problems.add({}, refusal(info, "mirrors"));
   if (!info.parts && !assembly.parts.empty()) problems.add({}, refusal(info, "parts"));
   if (!info.axisymmetric && assembly.particles.axisymmetric) problems.add({}, refusal(info, "axisymmetric bodies"));
-  if (!info.absorbs && has_absorbing(assembly)) problems.add({}, refusal(info, "non-reflecting patches"));
+  if (!info.absorbs && has_absorbing(assembly)) problems.add({}, refusal(info, "non-reflecting faces"));
   if (!info.off_lattice && has_scattered(assembly.particles)) problems.add({}, refusal(info, "rings"));
   if (!info.contact && !assembly.rigid_shapes.empty()) problems.add({}, refusal(info, "rigid shapes"));
   problems.raise_if_any();

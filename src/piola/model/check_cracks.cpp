@@ -45,7 +45,7 @@ void check_absorption(CaseSpec const& spec, Problems& problems) {
   for (LoadSpec const& load : spec.loads) {
     auto const info = formulation_of(spec, load.body);
     if (info && !info->absorbs && load.kind == LoadSpec::Kind::non_reflecting)
-      problems.add(place_of(load.places, "non_reflecting"), refusal(*info, "non-reflecting patches"));
+      problems.add(place_of(load.places, "non_reflecting"), refusal(*info, "non-reflecting faces"));
   }
 }
 
