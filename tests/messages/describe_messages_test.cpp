@@ -83,7 +83,7 @@ TEST(DescribeCommand, TellsOfSolidsAndOfTheLibrary) {
       all, {"steel_4340                  johnson_cook: 4340 steel (hardness Rockwell C 30), with shock and damage\n",
             "compressible_neo_hookean\n"});
   expect_words(law,
-               {"one of elastic, stiffened_gas, mie_grueneisen, polynomial; default: \"elastic\"",
+               {"one of elastic, stiffened_gas, mie_grueneisen, polynomial, tillotson; default: \"elastic\"",
                 "D1 of the fracture strain; only with damage = \"johnson_cook\"\n", "above 0; default: no limit\n"});
   Answer const steel = ask("describe material steel_4340");
   EXPECT_EQ(steel.code, 0);

@@ -37,9 +37,11 @@ struct SolidLaw {
              "hydrostatic: the material fails there (damage 1); principal: it fails where the largest principal stress "
              "reaches spall_pressure",
              spall_words},
-      Choice{"rate_dependence",
-             "growth of the yield stress with the plastic strain rate; cowper_symonds: by 1 + (rate/C)^(1/p)",
-             CowperSymonds::words}};
+      Choice{
+          "rate_dependence",
+          "growth of the yield stress with the plastic strain rate; cowper_symonds: by the factor 1 + (rate/C)^(1/p) "
+          "(Cowper and Symonds 1957)",
+          CowperSymonds::words}};
   static constexpr bool has_rate_dependence = requires { Strength::has_rate_dependence; };
   /// A solid that does not yield has no damage: it cannot fail.
   static constexpr std::span<Choice const> choices{all_choices.data(),

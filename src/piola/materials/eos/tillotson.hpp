@@ -20,7 +20,8 @@ class Tillotson {
  public:
   static constexpr std::string_view name = "tillotson";
   static constexpr std::array parameters{
-      Parameter{"tillotson_a", "1", "a, gamma of hot gas, typically 0.5", positive},
+      Parameter{"tillotson_a", "1", "a, gamma of hot gas, typically 0.5 (Tillotson 1962; Melosh 1989, appendix II)",
+                positive},
       Parameter{"tillotson_b", "1", "b; a + b is Grueneisen's gamma of the cold solid", not_negative},
       Parameter{"tillotson_bulk_a", "Pa", "A, bulk modulus at rest", positive, 0, "K of E and nu"},
       Parameter{"tillotson_bulk_b", "Pa", "B, times the square of the compression", any_value},

@@ -11,7 +11,7 @@ class Voce : public IsotropicHardening {
   using Runs = IsotropicHardening;  ///< solids carry this part alone
   static constexpr std::string_view name = "voce";
   static constexpr std::string_view about =
-      "elastic solid in rate form whose yield stress saturates with plastic strain";
+      "elastic solid in rate form whose yield stress saturates with plastic strain (Voce)";
   static constexpr std::array parameters{
       Parameter{"yield_stress", "Pa", "s0, von Mises stress at first yield", positive},
       Parameter{"voce_q", "Pa", "Q of Q (1 - exp(-b ep)), by which the yield stress grows", not_negative},
