@@ -62,7 +62,7 @@ TEST(BoundaryMessages, LoadsAreOfOneKind) {
                             {{"case.toml:25:1:", "force", "load", "traction", "acceleration", "write \"traction\""},
                              {"case.toml:26:18: load.body_force[1]", "1 Pa", "not a force per volume", "N/m^3"}}));
   EXPECT_TRUE(mentions(with("[[load]]\nbody = \"column\"\nacceleration = [0, \"1/(Y - 6)\", 0]\nface = \"+x\"\n"),
-                       {"case.toml:26:8: load.face", "only by a traction or a pressure", "remove"}));
+                       {"case.toml:26:8: load.face", "only by a traction, a pressure or", "remove"}));
   EXPECT_TRUE(
       mentions(with("[[load]]\nbody = \"column\"\nacceleration = [0, \"1/(Y - 6)\", 0]\n"),
                {"case.toml:25:16: load.acceleration[1]", "1/(Y - 6)", "inf", "(-0.5, 6, -0.5) m", "column", "finite"}));

@@ -121,12 +121,12 @@ TEST(MaterialMessages, NamesOfTheLibraryAreKnown) {
 }
 
 TEST(MaterialMessages, HeatSpreadsInNodalAlone) {
-  std::string const metal =
+  std::string const conducting =
       "law = \"perfectly_plastic\", density = 7800, youngs_modulus = 2e11, poissons_ratio = 0.3, "
       "yield_stress = 1e9, conductivity = 50";
-  EXPECT_TRUE(mentions(message_with(metal + ", specific_heat = 400", "adaptle"),
+  EXPECT_TRUE(mentions(message_with(conducting + ", specific_heat = 400", "adaptle"),
                        {"case.toml:10:12: material.conductivity", "\"adaptle\"", "nodal", "leave"}));
-  EXPECT_TRUE(mentions(message_with(metal), {"case.toml:10:12: material.conductivity", "specific_heat", "both"}));
+  EXPECT_TRUE(mentions(message_with(conducting), {"case.toml:10:12: material.conductivity", "specific_heat", "both"}));
   EXPECT_TRUE(mentions(message_of(sample_with("initial_velocity", "initial_temperature = 400\ninitial_velocity")),
                        {"case.toml:13:23: body.initial_temperature", "nodal", "jst_sph"}));
 }

@@ -50,13 +50,13 @@ double left_of_pulse(std::string const& shape, std::string const& sides) {
 }
 
 TEST(AbsorbingPatch, LeavesNothingOfAPulseThatMeetsItHeadOn) {
-  std::string const sides = "[[support]]\nbody = \"body\"\nwhere = \"Y < 0.02 || Y > 0.08\"\nfix = \"y\"\n";
+  std::string const sides = "[[support]]\nbody = \"body\"\nwhere = \"Y > -1\"\nfix = \"y\"\n";
   for (std::string const more : {"", ", placement = \"cell_centred\"", ", jitter = 0.2"}) {
-    EXPECT_LT(left_of_pulse("shape = { box = { min = [0], max = [1] }, particles = [61]" + more + " }\n", ""), 0.025)
+    EXPECT_LT(left_of_pulse("shape = { box = { min = [0], max = [1] }, particles = [61]" + more + " }\n", ""), 0.02)
         << more;
     EXPECT_LT(
         left_of_pulse("shape = { box = { min = [0, 0], max = [1, 0.1] }, particles = [61, 7]" + more + " }\n", sides),
-        0.025)
+        0.02)
         << more;
   }
 }
@@ -75,7 +75,9 @@ TEST(AbsorbingPatch, BearsTheTractionOfItsMaterialWhereABodyMoves) {
   }
 }
 
-TEST(AbsorbingPatch, TakesExactlyTheEnergyThatItReports) {
+/// The dashpots meet the moving body at once: a jump, after which energy is kept to the error of Verlet steps. The
+/// bounds of 3 % and 0.2 % were set after a first run.
+TEST(AbsorbingPatch, TakesTheEnergyThatItReportsToSecondOrder) {
   for (std::string const more : {"", "background_velocity = [\"5*t\", \"1\", \"Y\"]\n", "angle = \"40 degrees\"\n"}) {
     double error[2];
     for (int const half : {0, 1}) {
@@ -87,7 +89,7 @@ TEST(AbsorbingPatch, TakesExactlyTheEnergyThatItReports) {
       auto const end = f.diagnose();
       EXPECT_GT(radiated(end), 0.1 * start.total_energy());
       error[half] = std::fabs(end.total_energy() + radiated(end) - end.external_work - start.total_energy());
-      EXPECT_LT(error[half], (half ? 2e-3 : 0.03) * start.total_energy()) << "the start is a jump";
+      EXPECT_LT(error[half], (half ? 2e-3 : 0.03) * start.total_energy());
     }
     EXPECT_LT(error[1], 0.4 * error[0]) << more;
   }

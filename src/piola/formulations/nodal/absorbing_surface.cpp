@@ -67,6 +67,7 @@ AbsorbingSurface::AbsorbingSurface(int dimension, Input const& input) : D_(dimen
 void AbsorbingSurface::begin_step(std::span<PrescribedDirection const> held, std::span<MirroredParticle const> mirrored,
                                   double time, double dt) {
   lost_ = work_ = 0;
+  converges_ = true;
   impulses_.clear();
   for (Facet& facet : facets_) {
     Load const& load = loads_[facet.of.load];
@@ -157,7 +158,7 @@ AbsorbingSurface::Vector AbsorbingSurface::dashpots(Vector const& v, bool at_end
 }
 
 /// u of (M + h/2 C) u = M v + h/2 B^T Z g.
-AbsorbingSurface::Vector AbsorbingSurface::mean_velocity(Vector const& v, double half, bool at_end) const {
+AbsorbingSurface::Vector AbsorbingSurface::mean_velocity(Vector const& v, double half, bool at_end) {
   double const tau = 0.5 * half;
   auto const D = static_cast<std::size_t>(D_);
   Vector u = v, residual = dashpots(v, at_end);
@@ -181,6 +182,7 @@ AbsorbingSurface::Vector AbsorbingSurface::mean_velocity(Vector const& v, double
     square = product(residual, next);
     for (std::size_t i = 0; i < u.size(); ++i) direction[i] = next[i] + square / before * direction[i];
   }
+  converges_ = converges_ && !(square > enough);
   return u;
 }
 

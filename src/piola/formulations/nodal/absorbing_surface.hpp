@@ -46,7 +46,9 @@ class AbsorbingSurface {
   };
   AbsorbingSurface(int dimension, Input const& input);
 
+  static constexpr int not_converged = 4;  ///< FailureSlot::code
   bool empty() const { return facets_.empty(); }
+  bool converges() const { return converges_; }  ///< whether the solutions of this step are accurate
   void share(Range own) { own_ = own; }
   std::span<Index const> slots() const { return slots_; }  ///< of particles that the dashpots act on
   /// Before a step: what supports and mirror planes hold stays as it is. Evaluates the background velocities.
@@ -102,7 +104,7 @@ class AbsorbingSurface {
   void accelerate(Vector& forces) const;
   void remove_held(Vector& of) const;
   Vector dashpots(Vector const& v, bool at_end) const;
-  Vector mean_velocity(Vector const& v, double half, bool at_end) const;
+  Vector mean_velocity(Vector const& v, double half, bool at_end);
   void record(Vector const& x, Vector const& mean_v, Vector const& force, double half, bool at_end);
 
   int D_;
@@ -115,6 +117,7 @@ class AbsorbingSurface {
   std::vector<Impulse> impulses_;  ///< of this step
   double lost_ = 0, work_ = 0;     ///< in this step [J]
   double radiated_ = 0;
+  bool converges_ = true;  ///< in this step
   std::optional<Range> own_;
 };
 

@@ -129,6 +129,7 @@ void Boundary::begin_step(BodyState& state, double time, double dt) {
   state.boundary.absorbing = absorbing_.empty() ? nullptr : &absorbing_;
   state.boundary.absorb = [](AbsorbingSurface& surface, BodyState& body, double half, bool at_end) {
     surface.absorb({body.x, body.v, body.a}, half, at_end);
+    if (!surface.converges()) exec::record(body.failure, surface.slots().front(), AbsorbingSurface::not_converged);
   };
   state.boundary.surface = surface_.empty() ? nullptr : &surface_;
   state.boundary.kick_surface = [](SurfaceConstraint& surface, BodyState& body, bool first, double step) {

@@ -232,6 +232,8 @@ void Solver::describe(std::size_t k, FailureSlot const& slot, Failure& f) const 
   double const least = NodalBody::value(body.state().cell, slot.index, 2);
   f.what = slot.code == ImplicitPressure::not_converged
                ? std::string("is in a body whose implicit pressure does not converge")
+           : slot.code == AbsorbingSurface::not_converged
+               ? std::string("is on a non-reflecting patch whose dashpots do not converge")
            : slot.code >= failure_of_law         ? law_failure_text(body.material(slot.index), slot.code)
            : slot.code == NodalBody::behind_axis ? "is behind the axis (a hole closes?)"
            : least <= 0                          ? "is inverted"
