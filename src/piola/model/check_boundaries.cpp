@@ -196,12 +196,13 @@ void check_load(LoadSpec const& load, ParticleSet const& particles, Body const& 
   }
 }
 
-/// A support that holds all particles of a non-reflecting patch leaves it nothing to do.
+/// A support that holds all particles of a non-reflecting patch in all directions leaves it nothing to do.
 void check_absorbing(CaseSpec const& spec, LoadSpec const& load, ParticleSet const& particles, Body const& body,
                      Problems& problems) {
   if (load.kind != LoadSpec::Kind::non_reflecting) return;
   for (SupportSpec const& support : spec.supports) {
-    if (support.body != load.body) continue;
+    auto const directions = std::count(support.fix.begin(), support.fix.end(), true);
+    if (support.body != load.body || directions < particles.dimension) continue;
     std::set<std::int64_t> held;
     for (auto const id : supported_particles(particles, body, support)) held.insert(id);
     auto const ids = loaded_particles(particles, body, load);

@@ -166,7 +166,7 @@ TEST(AbsorbingPatch, BesideAMirrorPlaneIsHalfOfTheWholeBody) {
 
 TEST(AbsorbingPatch, RefusesWhatDoesNotGoTogether) {
   std::string const at_end = absorbing("patch = \"+x\"");
-  EXPECT_THROW(body_with(at_end + "[[support]]\nbody = \"body\"\npatch = \"+x\"\nfix = \"x\"\n"), InputError);
+  EXPECT_THROW(body_with(at_end + "[[support]]\nbody = \"body\"\npatch = \"+x\"\nfix = \"xyz\"\n"), InputError);
   EXPECT_THROW(body_with(at_end + "[[support]]\nbody = \"body\"\npatch = \"+y\"\nfix = \"y\"\n"), InputError);
   EXPECT_THROW(body_with(absorbing("patch = \"+x\"", "impedance = [-1, 1]\n")), InputError);
   EXPECT_THROW(body_with(absorbing("patch = \"+x\"", "impedance = [1]\n")), InputError);
