@@ -31,7 +31,7 @@ void set_drags(std::vector<AbsorbingFacet>& facets, std::vector<Load> const& loa
                std::function<Constants const&(Index slot)> const& constants_of);
 
 /// Dashpots on non-reflecting patches. With the mean velocities B v of the facets, their drags Z and the background
-/// velocity g, the forces are B^T Z (g - B v), so that a uniform stress wave meets its own traction. They act in both
+/// velocity g, the forces are B^T Z (g - B v), so that a uniform stress wave finds its own traction. They act in both
 /// kicks of a step, h = dt / 2 long, with the other accelerations a: v' - v = h (a + M^-1 B^T Z (g - B u)), u = (v +
 /// v') / 2, solved by conjugate gradients. They take h u^T C u, C = B^T Z B, whatever h is, and a kick inverts when
 /// time is reversed. The solution is replicated on all ranks. Theory: docs/theory/nodal.md, section 6.
