@@ -129,6 +129,14 @@ TEST(MaterialMessages, HeatSpreadsInNodalAlone) {
   EXPECT_TRUE(mentions(message_with(conducting), {"case.toml:10:12: material.conductivity", "specific_heat", "both"}));
   EXPECT_TRUE(mentions(message_of(sample_with("initial_velocity", "initial_temperature = 400\ninitial_velocity")),
                        {"case.toml:13:23: body.initial_temperature", "nodal", "jst_sph"}));
+  std::string const warm = sample_with(rubber,
+                                       "material = { law = \"perfectly_plastic\", density = 7800, youngs_modulus "
+                                       "= 2e11, poissons_ratio = 0.3, yield_stress = 1e9, specific_heat = 400 }");
+  EXPECT_TRUE(mentions(
+      message_of(test::replaced(
+          test::replaced(warm, R"(name = "jst_sph", variables = "pF", eps4_momentum = 0.125)", R"(name = "nodal")"),
+          "initial_velocity", "initial_temperature = \"100*Y\"\ninitial_velocity")),
+      {"case.toml:13:23: body.initial_temperature", "100*Y", "is 0", "above 0"}));
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ constexpr std::array body_keys{
     KeyInfo{"body", "initial_deformation_gradient", formulas, "1", any_value, "the identity",
             "deformation gradient at the start, a list of rows of formulas"},
     KeyInfo{"body", "initial_temperature", formula, "K", any_value, "material.initial_temperature",
-            "temperature at the start, for nodal; its difference to that of the material is heat"},
+            "temperature at the start, above 0, for nodal; its difference to that of the material is heat"},
 
     KeyInfo{"body.shape", "box", table, "", any_value, "none", "a box"},
     KeyInfo{"body.shape", "sphere", table, "", any_value, "none", "a sphere, disc or interval"},

@@ -26,7 +26,8 @@ void check_body(BodySpec const& spec, ParticleSet const& particles, Body const& 
     }
   }
   if (spec.initial_temperature)
-    check.finite(*spec.initial_temperature, "body.initial_temperature", place_of(spec.places, "initial_temperature"));
+    check.finite(*spec.initial_temperature, "body.initial_temperature", place_of(spec.places, "initial_temperature"),
+                 0);
   check_heat(spec, problems);
   if (spec.initial_deformation_gradient) {
     check.gradient(*spec.initial_deformation_gradient, place_of(spec.places, "initial_deformation_gradient"));

@@ -33,26 +33,28 @@ std::string box_of(ParticleSet const& particles, Body const& body) {
          point_text(high, particles.dimension);
 }
 
-bool FormulaCheck::finite_at(std::int64_t id, Expression const& formula, std::string const& name,
-                             Place const& place) const {
+bool FormulaCheck::finite_at(std::int64_t id, Expression const& formula, std::string const& name, Place const& place,
+                             double least) const {
   Vec3 const& X = particles_.X[static_cast<std::size_t>(id)];
   double const value = formula(X);
-  if (std::isfinite(value)) return true;
+  if (std::isfinite(value) && value > least) return true;
+  std::string const bound = least > -unbounded ? "above " + number_text(least) + " " : "";
   problems_.add(place, name + ", formula " + in_quotes(formula.text()) + " is " + number_text(value) +
                            " at X = " + point_text(X, particles_.dimension) + " of body " + in_quotes(body_.name) +
-                           " (allowed: a finite number at every particle)");
+                           " (allowed: a finite number " + bound + "at every particle)");
   return false;
 }
 
-bool FormulaCheck::finite(Expression const& formula, std::string const& name, Place const& place) const {
+bool FormulaCheck::finite(Expression const& formula, std::string const& name, Place const& place, double least) const {
   std::atomic<bool> good{true};
   for_each_with_formulas(formula, body_, [&](Expression const& mine, std::size_t id) {
-    if (!std::isfinite(mine(particles_.X[id]))) good.store(false, std::memory_order_relaxed);
+    double const value = mine(particles_.X[id]);
+    if (!(std::isfinite(value) && value > least)) good.store(false, std::memory_order_relaxed);
   });
   if (good) return true;
   // The first one is named.
   for (std::int64_t id = body_.first; id < body_.last; ++id)
-    if (!finite_at(id, formula, name, place)) break;
+    if (!finite_at(id, formula, name, place, least)) break;
   return false;
 }
 

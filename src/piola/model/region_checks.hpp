@@ -22,8 +22,9 @@ class FormulaCheck {
   FormulaCheck(ParticleSet const& particles, Body const& body, Problems& problems)
       : particles_(particles), body_(body), problems_(problems) {}
 
-  /// Whether the value at t = 0 is a finite number at every particle; reports the first particle where it is not.
-  bool finite(Expression const& formula, std::string const& name, Place const& place) const;
+  /// Whether the value at t = 0 is a finite number above `least` at every particle; reports the first particle where it
+  /// is not.
+  bool finite(Expression const& formula, std::string const& name, Place const& place, double least = -unbounded) const;
   /// As above, for the particles `ids` of the body.
   bool finite(Expression const& formula, std::string const& name, Place const& place,
               std::span<std::int64_t const> ids) const;
@@ -31,7 +32,8 @@ class FormulaCheck {
   void gradient(std::array<Expression, 9> const& F, Place const& place) const;
 
  private:
-  bool finite_at(std::int64_t id, Expression const& formula, std::string const& name, Place const& place) const;
+  bool finite_at(std::int64_t id, Expression const& formula, std::string const& name, Place const& place,
+                 double least = -unbounded) const;
 
   ParticleSet const& particles_;
   Body const& body_;
