@@ -55,12 +55,10 @@ std::optional<Failure> first_failure(ActingFormulas const& acting, ParticleSet c
 
 /// All formulas that act during a run.
 std::vector<ActingFormulas> acting_formulas(CaseSpec const& spec) {
-  constexpr std::array kinds{"traction", "body_force", "acceleration", "pressure", "background_velocity"};
   constexpr double always = std::numeric_limits<double>::infinity();
   std::vector<ActingFormulas> all;
   for (LoadSpec const& load : spec.loads)
-    all.push_back({"load on body " + in_quotes(load.body) + ": " + kinds[static_cast<std::size_t>(load.kind)],
-                   load.value, load.until, &load});
+    all.push_back({"load on body " + in_quotes(load.body) + ": " + load.value_key(), load.value, load.until, &load});
   for (SupportSpec const& support : spec.supports)
     if (support.velocity)
       all.push_back({"support of body " + in_quotes(support.body) + ": velocity", *support.velocity, support.until,

@@ -103,6 +103,11 @@ struct LoadSpec {
   Face face;                        ///< traction, pressure, non-reflecting
   ShapeSpec shape;                  ///< of the body
   bool follower = false;            ///< pressure: on the deformed face
+  /// Key of `value`.
+  char const* value_key() const {
+    constexpr std::array keys{"traction", "body_force", "acceleration", "pressure", "background_velocity"};
+    return keys[static_cast<std::size_t>(kind)];
+  }
   bool on_face() const { return kind != Kind::body_force && kind != Kind::acceleration; }
   double until = std::numeric_limits<double>::infinity();  ///< s: gone then
   Places places;

@@ -135,11 +135,11 @@ inline bool stores_internal_energy(MaterialParameters const& material) {
   return stores;
 }
 
-/// Whether heat flows in the material.
-inline bool conducts_heat(MaterialParameters const& material) {
-  double conductivity = 0;
-  with_solid(material, [&](auto const& law) { conductivity = law.heat().conductivity; });
-  return conductivity > 0;
+/// Heat of the material; of one without temperature: no heating, no conduction.
+inline Heat heat_of(MaterialParameters const& material) {
+  Heat heat;
+  with_solid(material, [&](auto const& law) { heat = law.heat(); });
+  return heat;
 }
 
 /// Whether the material fails: by damage, spall or cracks.

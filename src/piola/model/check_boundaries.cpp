@@ -173,7 +173,6 @@ bool check_support(SupportSpec const& support, ParticleSet const& particles, Bod
 }
 
 void check_load(LoadSpec const& load, ParticleSet const& particles, Body const& body, Problems& problems) {
-  constexpr std::array keys{"traction", "body_force", "acceleration", "pressure", "background_velocity"};
   Place const place = place_of(load.places, "where");
   if (load.where && !check_where(*load.where, "load.where", place, particles, body, problems)) return;
   std::vector<std::int64_t> const ids = loaded_particles(particles, body, load);
@@ -185,7 +184,7 @@ void check_load(LoadSpec const& load, ParticleSet const& particles, Body const& 
                             box_of(particles, body) + ") - " +
                             (load.where ? "change the condition" : "load another face"));
   }
-  std::string const key = keys[static_cast<std::size_t>(load.kind)];
+  std::string const key = load.value_key();
   FormulaCheck const check(particles, body, problems);
   if (load.kind == LoadSpec::Kind::pressure) {
     check.finite(load.value[0], "load.pressure", place_of(load.places, key), ids);

@@ -7,23 +7,17 @@
 namespace piola {
 namespace {
 
-/// Whether the material heats and cools.
-bool has_specific_heat(MaterialParameters const& material) {
-  double specific_heat = unbounded;
-  with_solid(material, [&](auto const& law) { specific_heat = law.heat().specific_heat; });
-  return specific_heat < unbounded;
-}
-
 void check_material(MaterialParameters const& material, BodySpec const& body, Place const& place, Problems& problems) {
   auto const info = find_formulation(body.formulation.name);
-  bool const conducts = conducts_heat(material);
+  Heat const heat = heat_of(material);
+  bool const conducts = heat.conductivity > 0, gets_warm = heat.specific_heat < unbounded;
   if (conducts && info && !info->conducts)
     problems.add(place, "material.conductivity is given, and heat is not conducted in the formulation " +
                             in_quotes(info->name) + " (allowed: nodal) - take nodal, or leave conductivity out");
-  if (conducts && !has_specific_heat(material))
+  if (conducts && !gets_warm)
     problems.add(place,
                  "material.conductivity is given without a specific_heat, so that nothing gets warm - give both");
-  if (body.initial_temperature && info && info->conducts && !has_specific_heat(material))
+  if (body.initial_temperature && info && info->conducts && !gets_warm)
     problems.add(place_of(body.places, "initial_temperature"),
                  "body.initial_temperature is given, and the material of body " + in_quotes(body.name) +
                      " has no specific_heat (allowed: laws in rate form that yield) - give specific_heat, or leave "

@@ -71,11 +71,10 @@ std::string odd_face_load(double size, BodyProperties const& body) {
 
 void compare_load(CaseSpec const& spec, LoadSpec const& load, ParticleSet const& particles, BodyProperties const& body,
                   Problems& slips) {
-  constexpr std::array keys{"traction", "body_force", "acceleration", "pressure", "background_velocity"};
   Body const& loaded = *body_named(particles, load.body);
   auto const looked = look_at_vector(load.value, particles, loaded_particles(particles, loaded, load),
                                      std::min(spec.run.end, load.until));
-  char const* const key = keys[static_cast<std::size_t>(load.kind)];
+  char const* const key = load.value_key();
   auto const note = [&](std::string const& odd) {
     if (!odd.empty()) slips.add(place_of(load.places, key), "body " + in_quotes(body.name) + ": " + key + ": " + odd);
   };

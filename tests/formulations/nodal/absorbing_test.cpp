@@ -120,19 +120,7 @@ TEST(AbsorbingPatch, HasForcesThatWithThoseOfSupportsSumToTheChangeOfMomentum) {
 TEST(AbsorbingPatch, IsTheSameForAnyNumberOfThreadsAndGoesOnBitForBit) {
   std::string const text = stretching + absorbing("patch = \"+x\"", "until = \"5 ms\"\n") +
                            "[[support]]\nbody = \"body\"\npatch = \"-y\"\nfix = \"y\"\nhold = \"particles\"\n";
-  SavedState reference;
-  for (int const threads : {1, 3}) {
-    Threads const used(threads);
-    auto const whole = body_with(text), first = body_with(text), second = body_with(text);
-    advance_by_itself(*whole.formulation, 0, 60);
-    double const middle = advance_by_itself(*first.formulation, 0, 27);
-    auto state = saved(*first.formulation);
-    second.formulation->load(state);
-    advance_by_itself(*second.formulation, middle, 33);
-    EXPECT_EQ(saved(*second.formulation).values, saved(*whole.formulation).values);
-    if (threads == 1) reference = saved(*whole.formulation);
-    EXPECT_EQ(saved(*whole.formulation).values, reference.values);
-  }
+  expect_same_bits([&] { return body_with(text); }, 27, 60);
 }
 
 TEST(AbsorbingPatch, DoesNotShortenTheStep) {

@@ -188,19 +188,7 @@ TEST(HeldSurface, OfARingInThePlaneHoldsItsHole) {
 TEST(HeldSurface, IsTheSameForAnyNumberOfThreadsAndGoesOnBitForBit) {
   std::string const text = stretching + support_on("-x", "xyz") +
                            support_on("+x", "yz", "velocity = [\"0\", \"5*t\", \"X\"]\nuntil = \"2 ms\"\n");
-  SavedState reference;
-  for (int const threads : {1, 3}) {
-    Threads const used(threads);
-    auto const whole = body_with(text), first = body_with(text), second = body_with(text);
-    advance_by_itself(*whole.formulation, 0, 90);
-    double const middle = advance_by_itself(*first.formulation, 0, 37);
-    auto state = saved(*first.formulation);
-    second.formulation->load(state);
-    advance_by_itself(*second.formulation, middle, 53);
-    EXPECT_EQ(saved(*second.formulation).values, saved(*whole.formulation).values);
-    if (threads == 1) reference = saved(*whole.formulation);
-    EXPECT_EQ(saved(*whole.formulation).values, reference.values);
-  }
+  expect_same_bits([&] { return body_with(text); }, 37, 90);
 }
 
 /// A ball that strikes a plate of three spacings, of which every particle moves the held face.

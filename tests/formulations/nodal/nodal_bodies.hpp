@@ -29,6 +29,25 @@ inline ParticleSet brick(int dimension, double jitter = 0, std::array<int, 3> n 
   return set;
 }
 
+/// The state after `steps` is the same for any number of threads, and for a run that goes on from its state at
+/// `middle`. make(): a new simulation.
+template <class Make>
+void expect_same_bits(Make const& make, int middle, int steps) {
+  SavedState reference;
+  for (int const threads : {1, 3}) {
+    Threads const used(threads);
+    auto const whole = make(), first = make(), second = make();
+    advance_by_itself(*whole.formulation, 0, steps);
+    double const time = advance_by_itself(*first.formulation, 0, middle);
+    auto state = saved(*first.formulation);
+    second.formulation->load(state);
+    advance_by_itself(*second.formulation, time, steps - middle);
+    EXPECT_EQ(saved(*second.formulation).values, saved(*whole.formulation).values);
+    if (threads == 1) reference = saved(*whole.formulation);
+    EXPECT_EQ(saved(*whole.formulation).values, reference.values);
+  }
+}
+
 /// Particle arrangement of a test: a lattice if jitter is 0, jittered otherwise.
 struct Cloud {
   double jitter = 0;

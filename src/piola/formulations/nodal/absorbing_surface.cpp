@@ -4,7 +4,6 @@
 #include "piola/domain/slot_collectives.hpp"
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace piola::nodal {
 namespace {
@@ -48,11 +47,10 @@ void set_drags(std::vector<AbsorbingFacet>& facets, std::vector<Load> const& loa
 
 AbsorbingSurface::AbsorbingSurface(int dimension, Input const& input) : D_(dimension), loads_(input.loads) {
   PIOLA_EXPECTS(dimension >= 1 && dimension <= 3);
-  std::map<Index, std::size_t> number;
   for (AbsorbingFacet const& facet : input.facets) {
     std::size_t const first = weights_.size();
     for (auto const& w : facet.weights) {
-      auto const [at, is_new] = number.try_emplace(w.slot, particles_.size());
+      auto const [at, is_new] = place_.try_emplace(w.slot, particles_.size());
       if (is_new) {
         particles_.push_back({input.mass(w.slot), input.X(w.slot)});
         slots_.push_back(w.slot);
@@ -76,14 +74,12 @@ void AbsorbingSurface::begin_step(std::span<PrescribedDirection const> held, std
       for (std::size_t c = 0; facet.acts && c < static_cast<std::size_t>(D_); ++c)
         facet.background[side][c] = load.value[c](facet.of.X, time + side * dt);
   }
-  std::map<Index, std::size_t> number;
-  for (std::size_t a = 0; a < slots_.size(); ++a) number[slots_[a]] = a;
   held_.clear();
   for (PrescribedDirection const& h : held)
-    if (auto const a = number.find(h.slot); a != number.end())
+    if (auto const a = place_.find(h.slot); a != place_.end())
       held_.push_back({a->second, {h.direction[0], h.direction[1], h.direction[2]}, h.support});
   for (MirroredParticle const& p : mirrored)
-    if (auto const a = number.find(p.slot); a != number.end())
+    if (auto const a = place_.find(p.slot); a != place_.end())
       for (std::size_t c = 0; c < 3; ++c) {
         Held on_plane{a->second, {}, -1};
         on_plane.direction[c] = 1;

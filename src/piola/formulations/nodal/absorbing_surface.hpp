@@ -5,6 +5,7 @@
 #include "piola/mechanics/load.hpp"
 #include <array>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -112,7 +113,8 @@ class AbsorbingSurface {
   std::vector<Facet> facets_;
   std::vector<Weight> weights_;
   std::vector<Particle> particles_;
-  std::vector<Index> slots_;  ///< of particles_
+  std::vector<Index> slots_;            ///< of particles_
+  std::map<Index, std::size_t> place_;  ///< in particles_, by slot
   std::vector<Held> held_;
   std::vector<Impulse> impulses_;  ///< of this step
   double lost_ = 0, work_ = 0;     ///< in this step [J]

@@ -3,6 +3,7 @@
 #include "piola/exec/field_view.hpp"
 #include "piola/formulations/nodal/quadratic.hpp"
 #include "piola/formulations/nodal/state.hpp"
+#include "piola/formulations/nodal/viscosity.hpp"
 #include "piola/materials/block_law.hpp"
 #include "piola/materials/finite_increment.hpp"
 #include "piola/materials/hypoelastic_solid.hpp"
@@ -167,8 +168,7 @@ class BlockLawCells {
   /// Viscous pressure where the mean volume ratio J falls, in proportion to (dJ/dt)^2 / J [Pa]. Zero in trial steps.
   PIOLA_FN Lanes shock_pressure(Cell const& old, Cell const& now) const {
     if (!(dt_ > 0) || wanted_ == Wanted::trial) return Lanes(0.0);
-    Lanes const closing = maximum((1 / dt_) * (old.mean_J - now.mean_J), Lanes(0.0));
-    return shock_ * closing * closing / now.mean_J;
+    return shock_pressure_of(Lanes(shock_), 1 / dt_, old.mean_J, now.mean_J, now.mean_J);
   }
   /// Work on a cell of viscous pressures, `before` and `after` the step, per reference volume [J/m^3].
   PIOLA_FN static Lanes heat_of(Cell const& old, Cell const& now, Lanes const& before, Lanes const& after) {

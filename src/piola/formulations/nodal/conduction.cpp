@@ -13,17 +13,6 @@ namespace {
 /// Largest change of a temperature in a part of a step, over its distance to those of the neighbours.
 constexpr double most_change = 0.5;
 
-/// Specific heat [J/(kg K)] and conductivity [W/(m K)] of a material; conductivity 0: heat does not flow.
-struct HeatOf {
-  double specific = unbounded, conductivity = 0;
-  explicit HeatOf(MaterialParameters const& material) {
-    with_solid(material, [&](auto const& law) {
-      specific = law.heat().specific_heat;
-      conductivity = law.heat().conductivity;
-    });
-  }
-};
-
 /// Deformation gradient of a cell as its last step left it, mean over its points.
 Mat<3> mean_gradient(FieldRef const& history, Index i, int D) {
   int const points = Fields::points(D);
@@ -48,91 +37,87 @@ double mean_temperature(FieldRef const& history, Index i, int D) {
 
 }  // namespace
 
-/// A facet of a cell: conductance [W/(m K) m^(D-2)] and temperature of the other cell over that of this one [K].
-struct Conduction::Facet {
-  double conductance, difference;
-};
-
 /// Local slots of a material.
 Range Conduction::own_of(MaterialRange const& range) const {
   Index const first = std::max(range.first, body_.own().first);
   return {first, std::max(first, std::min(range.last, body_.own().last))};
 }
 
-/// Field `heat` of the local cells and their ghosts: temperature, and conductivity in the reference configuration k J
-/// C^-1 = k cof F^T cof F / J.
-void Conduction::put_heat() {
+/// k J C^-1 = k cof F^T cof F / J of the local cells; 0 of those that have failed.
+void Conduction::put_conductivities() {
   BodyState& s = body_.state();
   for (MaterialRange const& range : body_.materials()) {
-    HeatOf const heat(range.material);
+    double const k = heat_of(range.material).conductivity;
     exec_host::parallel_for(own_of(range), [&](Index i) {
       Mat<3> const F = mean_gradient(s.history, i, dimension_), H = cofactor(F);
       double const J = determinant(F);
       bool const intact = J > 0 && (!s.has.failure || body_.condition(i) < CellCondition::broken);
-      SymMat<3> K;
+      Mat<3> const K = transpose(H) * H;
+      SymMat<3> of_cell;
       for (int a = 0; a < 3; ++a)
-        for (int b = a; b < 3; ++b) {
-          double sum = 0;
-          for (int c = 0; c < 3; ++c) sum += H(c, a) * H(c, b);
-          K(a, b) = intact ? heat.conductivity * sum / J : 0;
-        }
-      value_at(s.heat, i, 0) = mean_temperature(s.history, i, dimension_);
-      for (int c = 0; c < 6; ++c) value_at(s.heat, i, 1 + c) = K.c[c];
+        for (int b = a; b < 3; ++b) of_cell(a, b) = intact ? k * K(a, b) / J : 0;
+      for (int c = 0; c < 6; ++c) value_at(s.heat, i, At::conductivity + c) = of_cell.c[c];
     });
   }
+}
+
+/// Temperatures of the local cells; then ghosts get all of the field `heat`. Collective.
+void Conduction::put_temperatures() {
+  BodyState& s = body_.state();
+  exec_host::parallel_for(
+      body_.own(), [&](Index i) { value_at(s.heat, i, At::temperature) = mean_temperature(s.history, i, dimension_); });
   Halo{s.halo}.refresh(s.heat);
 }
 
-/// Calls f(Facet) for the facets of a cell, in the same order on any number of ranks. The conductivity of a facet is
-/// the harmonic mean of those of its cells along the line between the particles.
-template <class F>
-void Conduction::each_facet(Index slot, F const& f) const {
-  FacetList const& facets = body_.reference().facets;
-  FieldRef const& heat = body_.state().heat;
-  auto const along = [&](Index i, std::array<double, 3> const& n) {
-    SymMat<3> K;
-    for (int c = 0; c < 6; ++c) K.c[c] = value_at(heat, i, 1 + c);
-    double sum = 0;
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) sum += n[static_cast<std::size_t>(a)] * K(a, b) * n[static_cast<std::size_t>(b)];
-    return sum;
-  };
-  auto const at = static_cast<std::size_t>(slot - body_.own().first);
-  for (std::size_t k = facets.begin[at]; k < facets.begin[at + 1]; ++k) {
-    CellNeighbour const& other = facets.neighbour[k];
-    double const mine = along(slot, other.direction), its = along(other.slot, other.direction);
-    if (mine > 0 && its > 0)
-      f(Facet{other.area_over_distance * 2 * mine * its / (mine + its),
-              value_at(heat, other.slot, 0) - value_at(heat, slot, 0)});
-  }
+/// Conductivity of a cell along a direction [W/(m K)].
+double Conduction::along(std::array<double, 3> const& n, Index i) const {
+  SymMat<3> K;
+  for (int c = 0; c < 6; ++c) K.c[c] = value_at(body_.state().heat, i, At::conductivity + c);
+  double sum = 0;
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) sum += n[static_cast<std::size_t>(a)] * K(a, b) * n[static_cast<std::size_t>(b)];
+  return sum;
 }
 
-/// Largest sum of the conductances of a cell over its heat capacity [1/s]. Collective.
-double Conduction::largest_rate() const {
-  double most = 0;
+/// Finds the conductances of the facets, with the harmonic mean of the conductivities of their cells along the line
+/// between the particles. Returns the largest sum of a cell over its heat capacity [1/s]. Collective.
+double Conduction::find_conductances() {
+  FacetList const& facets = body_.reference().facets;
+  std::vector<double> rate(facets.begin.size() - 1);
   for (MaterialRange const& range : body_.materials()) {
-    HeatOf const heat(range.material);
-    Range const own = own_of(range);
-    for (Index i = own.first; i < own.last; ++i) {
+    double const capacity = range.constants.rho0 * heat_of(range.material).specific_heat;
+    exec_host::parallel_for(own_of(range), [&](Index i) {
+      auto const at = static_cast<std::size_t>(i - body_.own().first);
       double sum = 0;
-      each_facet(i, [&](Facet const& facet) { sum += facet.conductance; });
-      most = std::max(most, sum / (range.constants.rho0 * heat.specific * value_at(body_.state().V, i)));
-    }
+      for (std::size_t k = facets.begin[at]; k < facets.begin[at + 1]; ++k) {
+        CellNeighbour const& other = facets.neighbour[k];
+        double const mine = along(other.direction, i), its = along(other.direction, other.slot);
+        conductance_[k] = mine > 0 && its > 0 ? other.area_over_distance * 2 * mine * its / (mine + its) : 0;
+        sum += conductance_[k];
+      }
+      rate[at] = sum / (capacity * value_at(body_.state().V, i));
+    });
   }
+  double most = rate.empty() ? 0 : *std::max_element(rate.begin(), rate.end());
   if (body_.shared()) comm::allreduce_max(most);
   return most;
 }
 
+/// Sums over the facets of a cell have the same order on any number of ranks.
 void Conduction::conduct(double dt) {
   BodyState& s = body_.state();
+  FacetList const& facets = body_.reference().facets;
   for (MaterialRange const& range : body_.materials()) {
-    HeatOf const heat(range.material);
+    Heat const heat = heat_of(range.material);
     if (!(heat.conductivity > 0)) continue;
     exec_host::parallel_for(own_of(range), [&](Index i) {
+      auto const at = static_cast<std::size_t>(i - body_.own().first);
       double power = 0;
-      each_facet(i, [&](Facet const& facet) { power += facet.conductance * facet.difference; });
-      double const warmer = dt * power / (range.constants.rho0 * heat.specific * value_at(s.V, i));
-      value_at(s.history, i, HistoryLayout::energy) += heat.specific * warmer;
+      for (std::size_t k = facets.begin[at]; k < facets.begin[at + 1]; ++k)
+        power += conductance_[k] *
+                 (value_at(s.heat, facets.neighbour[k].slot, At::temperature) - value_at(s.heat, i, At::temperature));
+      double const warmer = dt * power / (range.constants.rho0 * heat.specific_heat * value_at(s.V, i));
+      value_at(s.history, i, HistoryLayout::energy) += heat.specific_heat * warmer;
       for (int q = 0; q < Fields::points(dimension_); ++q)
         value_at(s.history, i, HistoryLayout::point(q, dimension_) + HistoryLayout::temperature) += warmer;
     });
@@ -140,21 +125,17 @@ void Conduction::conduct(double dt) {
 }
 
 void Conduction::advance(double dt) {
-  put_heat();
-  double const parts = std::max(1.0, std::ceil(dt * largest_rate() / most_change));
+  put_conductivities();
+  put_temperatures();
+  double const parts = std::max(1.0, std::ceil(dt * find_conductances() / most_change));
   for (double part = 0; part < parts; ++part) {
-    if (part > 0) put_heat();
+    if (part > 0) put_temperatures();
     conduct(dt / parts);
   }
 }
 
 FacetList conducting_facets(SetUp const& from, ScaledBody const& scaled) {
   Range const own{from.own_slots().first, std::min(from.own_slots().last, from.order.particles)};
-  auto const source = [&](Index k) {
-    return k < from.order.particles
-               ? k
-               : from.images->particles().source[static_cast<std::size_t>(k - from.order.particles)];
-  };
   ItemsOfParticles const of(static_cast<std::size_t>(from.order.particles), [&](auto const& add) {
     for (std::size_t f = 0; f < scaled.facets.size(); ++f)
       for (Index const a : {scaled.facets[f].a, scaled.facets[f].b})
@@ -167,7 +148,7 @@ FacetList conducting_facets(SetUp const& from, ScaledBody const& scaled) {
       CellFacet const& facet = scaled.facets[f];
       double const sign = facet.a == i ? 1 : -1;
       Index const other = facet.a == i ? facet.b : facet.a;
-      CellNeighbour to{source(other), 0, {}};
+      CellNeighbour to{from.source_of(other), 0, {}};
       double square = 0, flux = 0;
       for (std::size_t c = 0; c < 3; ++c) {
         double const scaled_distance =

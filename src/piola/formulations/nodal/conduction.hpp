@@ -12,22 +12,24 @@ struct ScaledBody;
 class Conduction {
  public:
   /// Keeps the reference to the body.
-  explicit Conduction(NodalBody& body) : body_(body), dimension_(body.state().dimension) {}
+  explicit Conduction(NodalBody& body)
+      : body_(body), dimension_(body.state().dimension), conductance_(body.reference().facets.neighbour.size()) {}
 
   /// Conducts for dt [s], in as many parts as are stable. Collective.
   void advance(double dt);
 
  private:
-  struct Facet;
+  using At = HeatLayout;
   Range own_of(MaterialRange const& range) const;
-  void put_heat();
-  double largest_rate() const;
+  void put_conductivities();
+  void put_temperatures();
+  double along(std::array<double, 3> const& n, Index i) const;
+  double find_conductances();
   void conduct(double dt);
-  template <class F>
-  void each_facet(Index slot, F const& f) const;
 
   NodalBody& body_;
   int dimension_;
+  std::vector<double> conductance_;  ///< of the facets in this step [W/(m K) m^(D-2)]
 };
 
 /// Facets of the cells of the local particles of a body. `scaled`: the whole body.

@@ -30,7 +30,7 @@ struct Part {
       first[c] += other.first[c];
       normal_area[c] += other.normal_area[c];
     }
-    for (auto const& [slot, weight] : other.weights) weights[slot] += weight;
+    for (auto const& [at, weight] : other.weights) weights[at] += weight;
   }
 };
 
@@ -118,7 +118,7 @@ AbsorbingFacet facet_of(SetUp const& from, Part const& part, ConstrainedFacet co
   std::map<Index, std::array<double, 3>> weights;
   for (auto const& w : place.weights) {
     Index const image = w.slot - from.order.particles;
-    auto& of = weights[image < 0 ? w.slot : from.images->particles().source[static_cast<std::size_t>(image)]];
+    auto& of = weights[from.source_of(w.slot)];
     for (std::size_t c = 0; c < 3; ++c) of[c] += w.weight * (image < 0 ? 1 : from.images->sign(image)[c]);
   }
   for (auto const& [slot, of] : weights) facet.weights.push_back({slot, of});

@@ -93,6 +93,12 @@ constexpr CellCondition condition_of(double value) {
                        : CellCondition::detached;
 }
 
+/// Layout of the field `heat` of cells: temperature [K]; conductivity in the reference configuration [W/(m K)], as
+/// SymMat<3>.
+struct HeatLayout {
+  enum : int { temperature, conductivity, size = conductivity + 6 };
+};
+
 /// Conditions under which a body has fields beyond those of the elastic motion.
 struct FieldNeeds {
   bool viscosity = false;
@@ -176,8 +182,7 @@ struct Fields {
   // velocity of the step.
   ListedRef unit{owner,         "UnitPressureResultants", "1", dimension*(dimension + second(dimension)),
                  Role::derived, has.implicit_pressure};
-  // Conduction: temperature [K] and conductivity in the reference configuration [W/(m K)], of cells.
-  ListedRef heat{owner, "CellHeat", "K", 7, Role::derived, has.conducts};
+  ListedRef heat{owner, "CellHeat", "K", HeatLayout::size, Role::derived, has.conducts};
   ListedRef ratio{owner, "CellVolumeRatio", "1", 1, Role::derived, has.implicit_pressure};
   ListedRef mean_v{owner, "MeanVelocity", "m/s", dimension, Role::derived, has.implicit_pressure};
   ListedRef history_kept{owner,         "SolidHistoryAtStepStart",           "1", history_values(),

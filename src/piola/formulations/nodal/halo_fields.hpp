@@ -12,7 +12,7 @@ void add_halo_fields(HaloPlan& halo, BodyState const& state) {
   constexpr int of_list = Records<D>::used, of_lattice = D + Quadratic<D>::second;
   halo.add(state.x, 0, D);
   halo.add(state.stress_for_neighbours, 0, D * (state.lattice.group != nullptr ? of_lattice : of_list));
-  if (state.has.conducts) halo.add(state.heat, 0, 7);
+  if (state.has.conducts) halo.add(state.heat, 0, HeatLayout::size);
 }
 
 }  // namespace piola::nodal

@@ -239,7 +239,8 @@ Options read_options(FormulationSpec const& spec, std::vector<MaterialParameters
   o.block_history = block_history;
   o.converts = converts;
   o.convert_strain = convert_strain;
-  o.conducts = std::any_of(materials.begin(), materials.end(), &conducts_heat);
+  o.conducts =
+      std::any_of(materials.begin(), materials.end(), [](auto const& m) { return heat_of(m).conductivity > 0; });
   o.failure = converts || std::any_of(materials.begin(), materials.end(), &fails);
   return o;
 }

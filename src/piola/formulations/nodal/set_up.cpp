@@ -36,22 +36,15 @@ double since(std::chrono::steady_clock::time_point& start) {
                                X[1], X[2], what));
 }
 
-/// Slot of the particle that an entry of the scaled body is, or is the image of.
-Index source_of(SetUp const& from, std::size_t i) {
-  auto const particles = static_cast<std::size_t>(from.order.particles);
-  return i < particles ? static_cast<Index>(i) : from.images->particles().source[i - particles];
-}
-
 /// Cells with volumes in proportion to their masses, in units of the body's own density: transfers between cells are
 /// masses, with the moments of all materials together. Empty for a single material.
 LazyZeroArray<ScaledCell> heavy_cells(SetUp const& from, LazyZeroArray<ScaledCell> const& light) {
   if (from.rho0.size() == 1) return {};
   LazyZeroArray<ScaledCell> cells = light;
   for (std::size_t i = 0; i < cells.size(); ++i)
-    cells[i].volume *=
-        from.rho0[part_of(from.set,
-                          static_cast<std::size_t>(from.order.id[static_cast<std::size_t>(source_of(from, i))]))] /
-        from.rho0.front();
+    cells[i].volume *= from.rho0[part_of(from.set, static_cast<std::size_t>(from.order.id[static_cast<std::size_t>(
+                                                       from.source_of(static_cast<Index>(i)))]))] /
+                       from.rho0.front();
   return cells;
 }
 
@@ -102,7 +95,7 @@ LazyZeroArray<double> masses(SetUp const& from, ScaledBody const& scaled, std::o
 template <int D>
 void refuse_unsolvable(SetUp const& from, LocalFits<D> const& fits) {
   if (fits.unsolvable() >= 0)
-    refuse(from, source_of(from, static_cast<std::size_t>(fits.unsolvable())),
+    refuse(from, from.source_of(fits.unsolvable()),
            "has neighbours that determine no quadratic field - use at least three particles across the body in every "
            "direction");
 }

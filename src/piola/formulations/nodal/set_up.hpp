@@ -46,6 +46,11 @@ struct SetUp {
   /// non-reflecting patches, each rank sets up the whole body.
   bool is_shared() const;
   Range own_slots() const { return own.value_or(Range{0, order.slots()}); }
+  /// Slot of the particle that an entry of the scaled body is, or is the image of.
+  Index source_of(Index entry) const {
+    return entry < order.particles ? entry
+                                   : images->particles().source[static_cast<std::size_t>(entry - order.particles)];
+  }
 };
 
 /// Weight of a particle on a loaded face.

@@ -2,6 +2,7 @@
 #pragma once
 #include "piola/formulations/nodal/cell_stress.hpp"
 #include "piola/formulations/nodal/solid_cell_state.hpp"
+#include "piola/formulations/nodal/viscosity.hpp"
 #include "piola/materials/finite_increment.hpp"
 #include "piola/materials/hypoelastic_registry.hpp"
 
@@ -150,9 +151,9 @@ class SolidCells {
     if (!(dt_ > 0) || wanted_ == Wanted::trial) return Lanes(0.0);
     Lanes before = Lanes(0.0);
     for (int q = 0; q < points; ++q) before = before + (1.0 / points) * determinant(cell.F[q]);
-    Lanes const closing = maximum((1 / dt_) * (before - mean_J), Lanes(0.0));
-    if (!fails_) return shock_ * closing * closing / mean_J;
-    Lanes const Q = shock_ * cell.volume_factor * closing * closing / maximum(mean_J, Lanes(least_ratio));
+    if (!fails_) return shock_pressure_of(Lanes(shock_), 1 / dt_, before, mean_J, mean_J);
+    Lanes const Q =
+        shock_pressure_of(shock_ * cell.volume_factor, 1 / dt_, before, mean_J, maximum(mean_J, Lanes(least_ratio)));
     return select(history_.rests(cell.condition), Lanes(0.0), Q);
   }
 

@@ -40,6 +40,7 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
       bodies_.push_back(std::make_unique<NodalBody>(assembly, set_, k, options, backend_));
       monitors_.push_back(std::make_unique<StabilityMonitor>(*bodies_.back(), backend_));
       failures_.push_back(std::make_unique<CellFailure>(*bodies_.back(), backend_));
+      conductions_.push_back(options.conducts ? std::make_unique<Conduction>(*bodies_.back()) : nullptr);
       if (assembly.minimises) descents_.emplace_back(*bodies_.back(), backend_);
     }
     if (assembly.coupled) slots_ = SlotsById(set_, bodies_);
@@ -76,7 +77,7 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
       if (failures_[k]->end_step(dt, failed)) monitors_[k]->expect_change();
       tell_frequencies(k);
       monitors_[k]->update(dt, halvings);
-      if (bodies_[k]->options().conducts && !failed) Conduction(*bodies_[k]).advance(dt);
+      if (conductions_[k] != nullptr && !failed) conductions_[k]->advance(dt);
     }
     end_step(time + dt);
   }
@@ -158,8 +159,9 @@ class Solver final : public BodiesSolver<NodalBody, StabilityMonitor> {
   }
 
   Backend const& backend_;
-  std::vector<std::unique_ptr<CellFailure>> failures_;  ///< per body
-  std::vector<EnergyDescent> descents_;                 ///< per body, if the run minimises
+  std::vector<std::unique_ptr<CellFailure>> failures_;    ///< per body
+  std::vector<std::unique_ptr<Conduction>> conductions_;  ///< per body; null: heat stays where it arises
+  std::vector<EnergyDescent> descents_;                   ///< per body, if the run minimises
   bool ends_step_ = false;  ///< whether the next add_velocities() ends the last step or begins the next one
   double repeated_ = 0;     ///< steps that were taken again in halves
 };

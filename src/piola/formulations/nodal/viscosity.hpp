@@ -8,6 +8,14 @@
 /// section 5.
 namespace piola::nodal::inline PIOLA_BACKEND {
 
+/// Viscous pressure of shocks, where the volume ratio J falls from `before` to `now` in 1/rate [s]: coefficient
+/// (dJ/dt)^2 over `divisor`, J or a bound of it [Pa].
+PIOLA_FN Lanes shock_pressure_of(Lanes const& coefficient, double rate, Lanes const& before, Lanes const& now,
+                                 Lanes const& divisor) {
+  Lanes const closing = maximum(rate * (before - now), Lanes(0.0));
+  return coefficient * closing * closing / divisor;
+}
+
 /// History of a cell. Per point: the strain E in the directions of the body and the viscous stress S at the end of the
 /// last step. Per cell: the mean volume ratio, the shock pressure Q, and the dissipated energy per volume.
 template <int D>
@@ -59,9 +67,8 @@ struct Viscosity {
       }
       add_to_corner(energy.P[q], stress_of<SmallStrain>(F[q], S));
     }
-    Lanes const change = ratio - before.scalar<Lanes>(i, At::ratio),
-                closing = maximum((0.0 - rate) * change, Lanes(0.0));
-    Lanes const Q = constants.shock * closing * closing / ratio;
+    Lanes const ratio_before = before.scalar<Lanes>(i, At::ratio), change = ratio - ratio_before;
+    Lanes const Q = shock_pressure_of(Lanes(constants.shock), rate, ratio_before, ratio, ratio);
     if (rate > 0) loss = loss - 0.5 * (Q + before.scalar<Lanes>(i, At::Q)) * change;
     for (int q = 0; q < At::points; ++q) energy.P[q] = energy.P[q] + (0.0 - Q) * area_map<SmallStrain>(at.whole_at(q));
     after.scalar(i, ratio, At::ratio);
