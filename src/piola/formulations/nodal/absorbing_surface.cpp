@@ -10,7 +10,7 @@ namespace {
 
 /// Relative error of the mean velocity in the norm of the masses. Energy and momenta are kept better than that.
 constexpr double accuracy = 1e-10;
-/// The matrix is the mass with a fraction of it: ten steps are usual.
+/// Ten iterations are usual, because the dashpots add a fraction of the mass to the mass.
 constexpr int most_iterations = 200;
 
 /// rho c^2 of pressure waves [Pa]; in plates and bars those of the missing directions without stress.
@@ -105,7 +105,7 @@ AbsorbingSurface::Point AbsorbingSurface::mean(Facet const& facet, Vector const&
   return sum;
 }
 
-/// Z u.
+/// Force that drags a facet with the velocity u, Z u [N].
 AbsorbingSurface::Point AbsorbingSurface::drag(Facet const& facet, Point const& u) const {
   double const along = (facet.of.normal_drag - facet.of.shear_drag) * dot(u, facet.of.normal);
   Point force{};
@@ -114,7 +114,7 @@ AbsorbingSurface::Point AbsorbingSurface::drag(Facet const& facet, Point const& 
   return force;
 }
 
-/// B^T of the forces on the facets.
+/// Forces on the particles from forces on the facets, B^T times these [N].
 template <class Of>
 AbsorbingSurface::Vector AbsorbingSurface::forces(Of const& force_on) const {
   auto const D = static_cast<std::size_t>(D_);
@@ -138,13 +138,13 @@ void AbsorbingSurface::remove_held(Vector& of) const {
   }
 }
 
-/// From forces to accelerations of what is not held.
+/// Divides forces by masses, then removes the directions that are held.
 void AbsorbingSurface::accelerate(Vector& of) const {
   for (std::size_t k = 0; k < of.size(); ++k) of[k] /= particles_[k / static_cast<std::size_t>(D_)].mass;
   remove_held(of);
 }
 
-/// B^T Z (g - B v).
+/// Forces of the dashpots on the particles at velocities v, B^T Z (g - B v) [N].
 AbsorbingSurface::Vector AbsorbingSurface::dashpots(Vector const& v, bool at_end) const {
   return forces([&](Facet const& facet) {
     Point by = mean(facet, v);
@@ -153,7 +153,7 @@ AbsorbingSurface::Vector AbsorbingSurface::dashpots(Vector const& v, bool at_end
   });
 }
 
-/// u of (M + h/2 C) u = M v + h/2 B^T Z g.
+/// Mean velocity u of a kick of length h = `half`, from (M + h/2 C) u = M v + h/2 B^T Z g.
 AbsorbingSurface::Vector AbsorbingSurface::mean_velocity(Vector const& v, double half, bool at_end) {
   double const tau = 0.5 * half;
   auto const D = static_cast<std::size_t>(D_);

@@ -31,11 +31,14 @@ struct AbsorbingFacet {
 void set_drags(std::vector<AbsorbingFacet>& facets, std::vector<Load> const& loads, int dimension,
                std::function<Constants const&(Index slot)> const& constants_of);
 
-/// Dashpots on non-reflecting patches. With the mean velocities B v of the facets, their drags Z and the background
-/// velocity g, the forces are B^T Z (g - B v), so that a uniform stress wave finds its own traction. They act in both
-/// kicks of a step, h = dt / 2 long, with the other accelerations a: v' - v = h (a + M^-1 B^T Z (g - B u)), u = (v +
-/// v') / 2, solved by conjugate gradients. They take h u^T C u, C = B^T Z B, whatever h is, and a kick inverts when
-/// time is reversed. The solution is replicated on all ranks. Theory: docs/theory/nodal.md, section 6.
+/// Dashpots on non-reflecting patches. The matrix B takes velocities v of particles to the mean velocities of facets; Z
+/// holds the drags of the facets; g is the background velocity. The forces on the particles are B^T Z (g - B v), so
+/// that a uniform stress wave finds its own traction.
+///
+/// The dashpots act in both kicks of a step, each h = dt / 2 long, together with the other accelerations a:
+///   v' - v = h (a + M^-1 B^T Z (g - B u)),  u = (v + v') / 2
+/// Conjugate gradients solve for u, on every rank alike. The dashpots take the energy h u^T C u, C = B^T Z B, and a
+/// kick inverts when time is reversed. Theory: docs/theory/nodal.md, section 6.
 class AbsorbingSurface {
  public:
   using Point = std::array<double, 3>;

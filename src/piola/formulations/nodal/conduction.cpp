@@ -10,7 +10,7 @@
 namespace piola::nodal {
 namespace {
 
-/// Largest change of a temperature in a part of a step, over its distance to those of the neighbours.
+/// Largest part of the difference to its neighbours that a temperature may lose in a part of a step.
 constexpr double most_change = 0.5;
 
 /// Deformation gradient of a cell as its last step left it, mean over its points.

@@ -110,7 +110,7 @@ ConstrainedFacet place_of(Part const& part, std::array<double, 3> const& h) {
   return place;
 }
 
-/// With the weights of images at their sources.
+/// The facet of a part. Weights of mirror images are added to those of their sources.
 AbsorbingFacet facet_of(SetUp const& from, Part const& part, ConstrainedFacet const& place) {
   AbsorbingFacet facet{.X = place.X, .normal = part.normal_area, .area = part.size, .slot = part.slot};
   double const length = std::sqrt(dot(facet.normal, facet.normal));

@@ -51,7 +51,7 @@ class IsotropicHardening {
     V const yield = curve_.yield + curve_.modulus * plastic_strain;
     return select(mises > yield, (mises - yield) / (three_mu + curve_.modulus), V(0.0));
   }
-  /// No state yields at less [Pa].
+  /// Lower bound of the yield stress over all states [Pa].
   template <class V>
   PIOLA_FN V least_yield_stress(V const&) const {
     return V(curve_.at(0).value);
